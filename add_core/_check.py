@@ -1,0 +1,122 @@
+"""The one place that words complaints about arguments: what was expected, what was found, what to do."""
+
+from __future__ import annotations
+
+from typing import Any, TypeVar
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from .errors import GeometryError, ParameterError
+
+FloatArray = NDArray[np.float64]
+IntArray = NDArray[np.int64]
+BoolArray = NDArray[np.bool_]
+_AnyArray = TypeVar("_AnyArray", bound="np.ndarray[Any, Any]")
+
+
+def read_only(array: _AnyArray) -> _AnyArray:
+    """Mark `array` immutable and return it."""
+    array.setflags(write=False)
+    return array
+
+
+def points_array(name: str, value: ArrayLike, *, least: int = 1) -> FloatArray:
+    """`value` as a read-only float64 copy of shape (n, 3), n ≥ `least`, all finite."""
+    try:
+        array = np.array(value, dtype=np.float64)
+    except (TypeError, ValueError) as error:
+        raise GeometryError(f"{name} must be an array of numbers of shape (n, 3), but it is not: {error}.") from None
+    if array.ndim != 2 or array.shape[1] != 3:
+        raise GeometryError(f"{name} must have shape (n, 3), but it has {array.shape}.")
+    if len(array) < least:
+        raise GeometryError(f"{name} must hold at least {least} point{'s' * (least > 1)}, but it holds {len(array)}.")
+    bad = ~np.isfinite(array).all(axis=1)
+    if bad.any():
+        raise GeometryError(
+            f"{bad.sum()} of {len(array)} {name} {'are' if bad.sum() > 1 else 'is'} not finite "
+            f"(first: {np.argmax(bad)}). Remove or repair them first."
+        )
+    return read_only(array)
+
+
+def faces_array(value: ArrayLike, vertex_count: int) -> IntArray:
+    """`value` as a read-only int64 copy of shape (m, 3) that indexes into `vertex_count` vertices."""
+    raw = np.asarray(value)
+    if raw.ndim != 2 or raw.shape[1] != 3:
+        quads = " Split quads into triangles first." if raw.ndim == 2 and raw.shape[1] == 4 else ""
+        raise GeometryError(f"faces must have shape (m, 3), but it has {raw.shape}.{quads}")
+    if len(raw) == 0:
+        raise GeometryError("faces must hold at least one triangle, but it is empty. Open points alone as a PointCloud.")
+    if raw.dtype.kind not in "iu":
+        raise GeometryError(f"faces must hold integers, but it holds {raw.dtype}.")
+    array = np.array(raw, dtype=np.int64)
+    low, high = int(array.min()), int(array.max())
+    if low < 0 or high >= vertex_count:
+        hint = " Are they 1-based?" if low == 1 and high == vertex_count else ""
+        raise GeometryError(
+            f"faces must index into {vertex_count} vertices (0 to {vertex_count - 1}), "
+            f"but they range from {low} to {high}.{hint}"
+        )
+    return read_only(array)
+
+
+def vertex_index(name: str, value: Any, vertex_count: int) -> int:
+    """`value` as an index of one of `vertex_count` vertices."""
+    if isinstance(value, bool | np.bool_) or not isinstance(value, int | np.integer):
+        raise ParameterError(f"{name} must be a vertex number, but it is {value!r}.")
+    if not 0 <= value < vertex_count:
+        raise ParameterError(f"{name} must be from 0 to {vertex_count - 1}, but it is {value}.")
+    return int(value)
+
+
+def count_in(name: str, value: Any, low: int, high: int) -> int:
+    """`value` as a whole number from `low` to `high`."""
+    if isinstance(value, bool | np.bool_) or not isinstance(value, int | np.integer):
+        raise ParameterError(f"{name} must be a whole number, but it is {value!r}.")
+    if not low <= value <= high:
+        raise ParameterError(f"{name} must be from {low} to {high}, but it is {value}.")
+    return int(value)
+
+
+def finite(name: str, value: Any) -> float:
+    """`value` as a finite number."""
+    return _number(name, value, "finite", lambda x: True)
+
+
+def at_least_zero(name: str, value: Any) -> float:
+    """`value` as a finite number ≥ 0."""
+    return _number(name, value, "finite and at least 0", lambda x: x >= 0)
+
+
+def positive(name: str, value: Any) -> float:
+    """`value` as a finite number > 0."""
+    return _number(name, value, "finite and greater than 0", lambda x: x > 0)
+
+
+def positive_array(name: str, value: ArrayLike) -> FloatArray:
+    """`value` as a non-empty one-dimensional array of finite numbers > 0."""
+    array = np.atleast_1d(np.asarray(value, dtype=np.float64))
+    if array.ndim != 1 or array.size == 0:
+        raise ParameterError(f"{name} must be a list of numbers, but it has shape {array.shape}.")
+    bad = ~(np.isfinite(array) & (array > 0))
+    if bad.any():
+        raise ParameterError(f"{name} must be finite and greater than 0, but number {np.argmax(bad)} is {array[bad][0]}.")
+    return array
+
+
+def one_of(name: str, value: Any, choices: tuple[str, ...]) -> str:
+    """`value` if it is one of `choices`."""
+    if value not in choices:
+        raise ParameterError(f"{name} must be one of {', '.join(map(repr, choices))}, but it is {value!r}.")
+    return str(value)
+
+
+def _number(name: str, value: Any, expectation: str, holds: Any) -> float:
+    try:
+        number = float(value)
+    except (TypeError, ValueError):
+        raise ParameterError(f"{name} must be a number, but it is {value!r}.") from None
+    if not np.isfinite(number) or not holds(number):
+        raise ParameterError(f"{name} must be {expectation}, but it is {value}.")
+    return number

@@ -1,0 +1,55 @@
+"""Point clouds: points, and normals where they are known."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from .._check import FloatArray, points_array, read_only
+from ..errors import GeometryError
+
+
+@dataclass(frozen=True, eq=False)
+class PointCloud:
+    """Points sampled from a surface, in the shape's own length unit.
+
+    points : (n, 3) float64, kept in the order given.
+    normals : (n, 3) or None; made unit length, taken as outward. Without them they are estimated where they are needed.
+    name : what to call the shape in messages and windows.
+
+    Raises GeometryError if an array has the wrong shape or a value is not finite, or a given normal has no length.
+    """
+
+    points: FloatArray
+    normals: FloatArray | None = None
+    name: str = ""
+
+    def __init__(self, points: ArrayLike, normals: ArrayLike | None = None, name: str = "") -> None:
+        checked = points_array("points", points)
+        object.__setattr__(self, "points", checked)
+        object.__setattr__(self, "normals", None if normals is None else _unit_normals(normals, len(checked)))
+        object.__setattr__(self, "name", str(name))
+
+    def __repr__(self) -> str:
+        return f"PointCloud({self.name!r}, {self.vertex_count} points)"
+
+    @property
+    def vertices(self) -> FloatArray:
+        """The points, under the name that meshes use."""
+        return self.points
+
+    @property
+    def vertex_count(self) -> int:
+        return len(self.points)
+
+
+def _unit_normals(normals: ArrayLike, count: int) -> FloatArray:
+    array = points_array("normals", normals)
+    if len(array) != count:
+        raise GeometryError(f"normals must have one row for each of the {count} points, but there are {len(array)}.")
+    length = np.linalg.norm(array, axis=1, keepdims=True)
+    if not length.all():
+        raise GeometryError(f"normals must have a length, but number {np.argmin(length)} is zero. Leave normals out to estimate them.")
+    return read_only(array / length)

@@ -1,0 +1,130 @@
+"""Triangle meshes: the shape and what follows from it alone."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import ArrayLike
+from scipy.sparse import csr_array
+from scipy.sparse.csgraph import connected_components
+
+from .._check import BoolArray, FloatArray, IntArray, faces_array, points_array, read_only
+
+FLAT_FACE = 1e-14
+"""A face whose area is below this share of its longest edge squared has no usable normal: rounding made it."""
+
+
+@dataclass(frozen=True, eq=False)
+class TriangleMesh:
+    """A surface made of triangles, in the shape's own length unit.
+
+    vertices : (n, 3) float64, kept in the order given.
+    faces : (m, 3) int64, 0-based, counter-clockwise when seen from outside.
+    name : what to call the shape in messages and windows.
+
+    Arrays are copied and read-only. Defects that have an honest answer (unreferenced vertices, faces without area, several
+    components, boundaries) are kept as they are; `add_core.geometry.inspect` reports them.
+
+    Raises GeometryError if an array has the wrong shape, a vertex is not finite or a face points to no vertex.
+    """
+
+    vertices: FloatArray
+    faces: IntArray
+    name: str = ""
+
+    def __init__(self, vertices: ArrayLike, faces: ArrayLike, name: str = "") -> None:
+        checked = points_array("vertices", vertices, least=3)
+        object.__setattr__(self, "vertices", checked)
+        object.__setattr__(self, "faces", faces_array(faces, len(checked)))
+        object.__setattr__(self, "name", str(name))
+
+    def __repr__(self) -> str:
+        return f"TriangleMesh({self.name!r}, {self.vertex_count} vertices, {len(self.faces)} faces)"
+
+    @property
+    def vertex_count(self) -> int:
+        return len(self.vertices)
+
+    @cached_property
+    def opposite_edges(self) -> FloatArray:
+        """(m, 3, 3): the edge opposite to each corner, as a vector that runs counter-clockwise around its face."""
+        corners = self.vertices[self.faces]
+        return read_only(corners[:, [2, 0, 1]] - corners[:, [1, 2, 0]])
+
+    @cached_property
+    def _area_vectors(self) -> FloatArray:
+        edges = self.opposite_edges
+        return read_only(0.5 * np.cross(edges[:, 0], edges[:, 1]))  # (m, 3), length = area
+
+    @cached_property
+    def face_areas(self) -> FloatArray:
+        """(m,), unit length²."""
+        return read_only(np.linalg.norm(self._area_vectors, axis=1))
+
+    @cached_property
+    def has_area(self) -> BoolArray:
+        """(m,): False for faces so thin that their normal is rounding noise."""
+        longest = (self.opposite_edges**2).sum(axis=2).max(axis=1)
+        return read_only(self.face_areas > FLAT_FACE * longest)
+
+    @cached_property
+    def face_normals(self) -> FloatArray:
+        """(m, 3), unit, outward for counter-clockwise faces; zero where a face has no area."""
+        length = np.where(self.has_area, self.face_areas, np.inf)
+        return read_only(self._area_vectors / length[:, None])
+
+    @cached_property
+    def vertex_areas(self) -> FloatArray:
+        """(n,), unit length²: a third of each adjacent face; 0 for unreferenced vertices. The lumped mass S."""
+        share = np.repeat(np.where(self.has_area, self.face_areas, 0.0) / 3.0, 3)
+        return read_only(np.bincount(self.faces.ravel(), share, self.vertex_count))
+
+    @cached_property
+    def vertex_normals(self) -> FloatArray:
+        """(n, 3), unit, area-weighted mean of the adjacent faces' normals; zero where there is none."""
+        total = np.zeros((self.vertex_count, 3))
+        np.add.at(total, self.faces.ravel(), np.repeat(self._area_vectors, 3, axis=0))
+        length = np.linalg.norm(total, axis=1, keepdims=True)
+        return read_only(np.divide(total, length, out=np.zeros_like(total), where=length > 0))
+
+    @cached_property
+    def area(self) -> float:
+        """Total area, unit length²."""
+        return float(self.face_areas.sum())
+
+    @cached_property
+    def edges(self) -> IntArray:
+        """(e, 2): every edge once, its smaller vertex first, in lexicographic order."""
+        return read_only(np.unique(np.sort(self._half_edges, axis=1), axis=0))
+
+    @cached_property
+    def edge_face_counts(self) -> IntArray:
+        """(e,): how many faces share each of `edges`: 1 on a boundary, 2 inside, more where the mesh is not a manifold."""
+        _, counts = np.unique(np.sort(self._half_edges, axis=1), axis=0, return_counts=True)
+        return read_only(counts.astype(np.int64))
+
+    @cached_property
+    def boundary_edges(self) -> IntArray:
+        """(b, 2): edges with one face only."""
+        return read_only(self.edges[self.edge_face_counts == 1])
+
+    @cached_property
+    def component_labels(self) -> IntArray:
+        """(n,): which connected component each vertex belongs to, numbered by first vertex; unreferenced ones stand alone."""
+        i, j = self.edges.T
+        n = self.vertex_count
+        graph = csr_array((np.ones(len(i), dtype=np.int8), (i, j)), shape=(n, n))
+        return read_only(connected_components(graph, directed=False)[1].astype(np.int64))
+
+    @cached_property
+    def is_referenced(self) -> BoolArray:
+        """(n,): False for vertices that no face uses."""
+        used = np.zeros(self.vertex_count, dtype=bool)
+        used[self.faces.ravel()] = True
+        return read_only(used)
+
+    @property
+    def _half_edges(self) -> IntArray:
+        return self.faces[:, [1, 2, 2, 0, 0, 1]].reshape(-1, 2)
