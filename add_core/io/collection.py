@@ -1,0 +1,84 @@
+"""Collections of shapes with known correspondence, whatever they are stored in."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from .._check import IntArray, one_of, read_only
+from ..errors import ParameterError
+from ..geometry import PointCloud, TriangleMesh
+
+Shape = TriangleMesh | PointCloud
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Collection:
+    """Shapes of one kind, in a fixed order, with the map between any two of them.
+
+    `len(collection)`, `collection[i]` and iteration give the shapes; each is made when it is asked for.
+
+    title : what to call the collection.
+    names : one readable name a shape, e.g. "person 3, walk".
+    symmetry : (n,) or None, the vertex that mirrors each vertex, its own inverse; the same for every shape.
+    subjects : one name a shape, of the individual that it shows, or None.
+    poses : one name a shape, or None.
+    training : indices of the shapes that the literature trains on, the others being for testing; None without a custom.
+    unit : length unit of the vertices, "" if unknown.
+    up, front : the axes that point up and that the shapes look along, e.g. "+z" and "-y"; "" if unknown.
+    licence : under which terms the shapes may be used, in a few words.
+    """
+
+    title: str
+    names: tuple[str, ...]
+    symmetry: IntArray | None = None
+    subjects: tuple[str, ...] | None = None
+    poses: tuple[str, ...] | None = None
+    training: tuple[int, ...] | None = None
+    unit: str = ""
+    up: str = ""
+    front: str = ""
+    licence: str = ""
+    make_shape: Callable[[int], Shape] = field(repr=False)
+    landmarks: Callable[[int], IntArray] | None = field(default=None, repr=False)
+
+    def __len__(self) -> int:
+        return len(self.names)
+
+    def __getitem__(self, index: int) -> Shape:
+        return self.make_shape(self._checked(index))
+
+    def __iter__(self) -> Iterator[Shape]:
+        return (self.make_shape(index) for index in range(len(self)))
+
+    def correspondence(self, i: int, j: int) -> IntArray:
+        """(n_i,): the vertex of shape j at the same place as each vertex of shape i, -1 where j has none."""
+        i, j = self._checked(i), self._checked(j)
+        if self.landmarks is None:  # one connectivity: a vertex keeps its number
+            return read_only(np.arange(self.make_shape(i).vertex_count, dtype=np.int64))
+        source, target = self.landmarks(i), self.landmarks(j)
+        vertex_at = np.full(max(source.max(), target.max()) + 1, -1, dtype=np.int64)
+        # The first of several vertices at one place answers for it, so write it last.
+        vertex_at[target[::-1]] = np.arange(len(target) - 1, -1, -1)
+        return read_only(vertex_at[source])
+
+    def split(self, part: str) -> IntArray:
+        """Indices of the shapes to "train" on or to "test" with, ascending and disjoint.
+
+        Raises ParameterError if `part` is another word, or nobody has agreed on a split of this collection.
+        """
+        one_of("part", part, ("train", "test"))
+        if self.training is None:
+            raise ParameterError(
+                f"{self.title} has no customary split into training and test shapes. Choose indices yourself."
+            )
+        chosen = np.isin(np.arange(len(self)), self.training)
+        return read_only(np.flatnonzero(chosen if part == "train" else ~chosen).astype(np.int64))
+
+    def _checked(self, index: int) -> int:
+        # IndexError, as lists raise it: Python's own protocols end on it.
+        if not -len(self) <= index < len(self):
+            raise IndexError(f"{self.title} has shapes 0 to {len(self) - 1}, but {index} was asked for.")
+        return int(index) % len(self)
