@@ -51,5 +51,7 @@ def _unit_normals(normals: ArrayLike, count: int) -> FloatArray:
         raise GeometryError(f"normals must have one row for each of the {count} points, but there are {len(array)}.")
     length = np.linalg.norm(array, axis=1, keepdims=True)
     if not length.all():
-        raise GeometryError(f"normals must have a length, but number {np.argmin(length)} is zero. Leave normals out to estimate them.")
+        raise GeometryError(
+            f"normals must have a length, but number {np.argmin(length)} is zero. Leave normals out to estimate them."
+        )
     return read_only(array / length)

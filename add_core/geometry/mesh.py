@@ -17,6 +17,18 @@ FLAT_FACE = 1e-14
 
 
 @dataclass(frozen=True, eq=False)
+class InnerEdges:
+    """Edges between two faces that run along them in opposite senses, as on an oriented manifold.
+
+    vertices : (e, 2), in the sense in which the left face runs along the edge, smaller number first.
+    faces : (e, 2), the left and the right face.
+    """
+
+    vertices: IntArray
+    faces: IntArray
+
+
+@dataclass(frozen=True, eq=False)
 class TriangleMesh:
     """A surface made of triangles, in the shape's own length unit.
 
@@ -109,6 +121,22 @@ class TriangleMesh:
     def boundary_edges(self) -> IntArray:
         """(b, 2): edges with one face only."""
         return read_only(self.edges[self.edge_face_counts == 1])
+
+    @cached_property
+    def inner_edges(self) -> InnerEdges:
+        """Edges with exactly two faces of the same orientation, both with area; the others have no angle to speak of."""
+        usable = np.flatnonzero(self.has_area)
+        half = self.faces[usable][:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)
+        face = np.repeat(usable, 3)
+        n = self.vertex_count
+        keys, index, counts = np.unique(half @ [n, 1], return_index=True, return_counts=True)
+        keys, index = keys[counts == 1], index[counts == 1]  # one sense, two faces: not an oriented manifold's edge
+        ascending = index[half[index, 0] < half[index, 1]]
+        reverse = half[ascending] @ [1, n]
+        position = np.minimum(np.searchsorted(keys, reverse), max(len(keys) - 1, 0))
+        paired = keys[position] == reverse if len(keys) else np.zeros(0, dtype=bool)
+        left, right = ascending[paired], index[position[paired]]
+        return InnerEdges(read_only(half[left]), read_only(np.stack([face[left], face[right]], axis=1)))
 
     @cached_property
     def component_labels(self) -> IntArray:

@@ -1,0 +1,103 @@
+"""Principal frames: where the directions of maximum and minimum curvature lie, how strong they are and how far to trust them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from .._check import BoolArray, FloatArray, IntArray, read_only
+from .curvature import face_curvature_tensors
+from .direction_field import TangentBasis, fill_axes
+from .mesh import TriangleMesh
+
+TRUSTED = 0.1
+"""Confidence below which a direction is taken from its neighbours."""
+FLAT = 1e-2
+"""A surface that bends less than this over its own size (the radius of the sphere of its area) counts as flat."""
+
+
+@dataclass(frozen=True, eq=False)
+class PrincipalFrames:
+    """Orthonormal principal frames, one per face of a mesh or per point of a cloud; m rows.
+
+    max_direction, min_direction : (m, 3), unit, tangent: directions of maximum and minimum ABSOLUTE normal curvature, u_M and u_m.
+        Only their axes count, not their signs. (max_direction, min_direction, normals) is right-handed.
+    normals : (m, 3), unit, outward.
+    max_curvature, min_curvature : (m,), signed, 1/length, |max| ≥ |min|; positive where the surface is convex (a ball's are 1/r).
+    confidence : (m,), from 0 (flat, umbilic, or equally curved both ways: no direction) to 1 (a cylinder). Where it is below
+        `TRUSTED` the directions are filled in from confident neighbours; the curvatures stay as measured.
+
+    Faces without area have zero vectors, zero curvature and zero confidence.
+    """
+
+    max_direction: FloatArray
+    min_direction: FloatArray
+    normals: FloatArray
+    max_curvature: FloatArray
+    min_curvature: FloatArray
+    confidence: FloatArray
+
+
+def principal_curvatures(shape: TriangleMesh) -> PrincipalFrames:
+    """Principal frames per face of a mesh (Cohen-Steiner and Morvan 2003) or per point of a cloud (section 6).
+
+    Boundaries, several components and faces without area are allowed.
+    """
+    return _mesh_frames(shape)
+
+
+def frames_from_tensors(
+    tensors: FloatArray,
+    normals: FloatArray,
+    positions: FloatArray,
+    *,
+    neighbours: IntArray,
+    size: float,
+    usable: BoolArray | None = None,
+) -> PrincipalFrames:
+    """Frames from curvature tensors (m, 3, 3) whose largest |eigenvalue| belongs to the direction of MINIMUM curvature.
+
+    normals : (m, 3), unit. positions : (m, 3). neighbours : (p, 2) pairs of adjacent rows, along which uncertain directions
+    are filled in. size : a length that says what counts as flat. usable : (m,), False where there is no tangent plane.
+    """
+    basis = TangentBasis.of(normals, positions)
+    usable = np.ones(len(normals), dtype=bool) if usable is None else usable
+    t11 = np.einsum("fi,fij,fj->f", basis.first, tensors, basis.first)
+    t12 = np.einsum("fi,fij,fj->f", basis.first, tensors, basis.second)
+    t22 = np.einsum("fi,fij,fj->f", basis.second, tensors, basis.second)
+    mean, radius = (t11 + t22) / 2, np.hypot((t11 - t22) / 2, t12)
+    sign = np.where(mean < 0, -1.0, 1.0)
+    max_curvature, min_curvature = mean + sign * radius, mean - sign * radius
+    # cos 2φ, sin 2φ of the axis along which the tensor is largest in absolute value: an edge bends across itself.
+    double_angle = -sign * ((t11 - t22) / 2 + 1j * t12)
+    confidence = np.where(usable, _confidence(mean, radius, max_curvature, size), 0.0)
+    double_angle = fill_axes(double_angle, basis, trusted=confidence >= TRUSTED, usable=usable, neighbours=neighbours)
+    max_direction = np.where(usable[:, None], basis.axes(double_angle), 0.0)
+    return PrincipalFrames(
+        max_direction=read_only(max_direction),
+        min_direction=read_only(np.cross(normals, max_direction)),
+        normals=read_only(normals.copy()),
+        max_curvature=read_only(np.where(usable, max_curvature, 0.0)),
+        min_curvature=read_only(np.where(usable, min_curvature, 0.0)),
+        confidence=read_only(confidence),
+    )
+
+
+def _mesh_frames(mesh: TriangleMesh) -> PrincipalFrames:
+    return frames_from_tensors(
+        face_curvature_tensors(mesh),
+        mesh.face_normals,
+        mesh.vertices[mesh.faces].mean(axis=1),
+        neighbours=mesh.inner_edges.faces,
+        size=float(np.sqrt(mesh.area / (4 * np.pi))),
+        usable=mesh.has_area,
+    )
+
+
+def _confidence(mean: FloatArray, radius: FloatArray, max_curvature: FloatArray, size: float) -> FloatArray:
+    """(|κ_M| − |κ_m|)/(|κ_M| + |κ_m|), faded out where the surface is flat."""
+    least, most = np.minimum(np.abs(mean), radius), np.maximum(np.abs(mean), radius)
+    contrast = np.divide(least, most, out=np.zeros_like(most), where=most > 0)
+    bend = (max_curvature * size) ** 2
+    return np.asarray(contrast * bend / (bend + FLAT**2))

@@ -1,0 +1,95 @@
+"""Shapes with closed-form truths: what every operator is tested against, and quick shapes to try things on."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from .._check import FloatArray, IntArray, count_in
+from .mesh import TriangleMesh
+
+
+def sphere(subdivisions: int = 4, *, radius: float = 1.0) -> TriangleMesh:
+    """Icosphere with 10·4^s + 2 vertices, normals outward. Laplacian eigenvalues: l(l+1)/r², each 2l+1 times."""
+    vertices, faces = _icosahedron()
+    for _ in range(count_in("subdivisions", subdivisions, 0, 9)):
+        vertices, faces = _split_in_four(vertices, faces)
+    return TriangleMesh(radius * vertices, faces, "sphere")
+
+
+def ellipsoid(a: float = 1.0, b: float = 0.8, c: float = 0.6, *, subdivisions: int = 4) -> TriangleMesh:
+    """Icosphere stretched to half axes a, b, c along x, y, z."""
+    ball = sphere(subdivisions)
+    return TriangleMesh(ball.vertices * [a, b, c], ball.faces, "ellipsoid")
+
+
+def cylinder(*, radius: float = 1.0, height: float = 2.0, around: int = 48, along: int = 24) -> TriangleMesh:
+    """Open cylinder about z, normals outward: curvature 1/r around (maximum), 0 along z (minimum)."""
+    angle = 2 * np.pi * np.arange(around) / around
+    z = np.linspace(-height / 2, height / 2, along + 1)
+    x, y = radius * np.cos(angle), radius * np.sin(angle)
+    vertices = np.stack([np.tile(x, along + 1), np.tile(y, along + 1), np.repeat(z, around)], axis=1)
+    return TriangleMesh(vertices, _grid_faces(along + 1, around, wrap_rows=False, wrap_columns=True), "cylinder")
+
+
+def torus(*, major: float = 1.0, minor: float = 0.4, around: int = 64, through: int = 32) -> TriangleMesh:
+    """Torus about z, normals outward: curvature 1/r through the tube (maximum), cos φ/(R + r cos φ) around (minimum)."""
+    u = 2 * np.pi * np.arange(around) / around
+    v = 2 * np.pi * np.arange(through) / through
+    ring = major + minor * np.cos(v)[None, :]
+    x, y = ring * np.cos(u)[:, None], ring * np.sin(u)[:, None]
+    z = np.broadcast_to(minor * np.sin(v), x.shape)
+    vertices = np.stack([x, y, z], axis=2).reshape(-1, 3)
+    faces = _grid_faces(around, through, wrap_rows=True, wrap_columns=True)[:, [0, 2, 1]]
+    return TriangleMesh(vertices, faces, "torus")
+
+
+def rectangle(width: float = 1.0, height: float = 1.0, *, n: int = 16) -> TriangleMesh:
+    """Flat width × height rectangle in the xy plane, normal +z, n + 1 vertices along its shorter side, squares split alternately.
+
+    Laplacian eigenvalues with free boundary: π²(i²/w² + j²/h²), i, j ≥ 0.
+    """
+    short = min(width, height) / n
+    columns, rows = round(width / short) + 1, round(height / short) + 1
+    x, y = np.meshgrid(np.linspace(0, width, columns), np.linspace(0, height, rows))
+    vertices = np.stack([x.ravel(), y.ravel(), np.zeros(x.size)], axis=1)
+    return TriangleMesh(vertices, _grid_faces(rows, columns, wrap_rows=False, wrap_columns=False), "rectangle")
+
+
+def _icosahedron() -> tuple[FloatArray, IntArray]:
+    g = (1 + np.sqrt(5)) / 2
+    vertices = np.array(
+        [(-1, g, 0), (1, g, 0), (-1, -g, 0), (1, -g, 0), (0, -1, g), (0, 1, g)]
+        + [(0, -1, -g), (0, 1, -g), (g, 0, -1), (g, 0, 1), (-g, 0, -1), (-g, 0, 1)]
+    ) / np.sqrt(1 + g * g)
+    faces = np.array(
+        [(0, 11, 5), (0, 5, 1), (0, 1, 7), (0, 7, 10), (0, 10, 11), (1, 5, 9), (5, 11, 4), (11, 10, 2), (10, 7, 6)]
+        + [(7, 1, 8), (3, 9, 4), (3, 4, 2), (3, 2, 6), (3, 6, 8), (3, 8, 9), (4, 9, 5), (2, 4, 11), (6, 2, 10)]
+        + [(8, 6, 7), (9, 8, 1)]
+    )
+    return vertices, faces
+
+
+def _split_in_four(vertices: FloatArray, faces: IntArray) -> tuple[FloatArray, IntArray]:
+    sides = np.sort(faces[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
+    edges, inverse = np.unique(sides, axis=0, return_inverse=True)
+    middle = vertices[edges].sum(axis=1)
+    middle /= np.linalg.norm(middle, axis=1, keepdims=True)
+    ab, bc, ca = (len(vertices) + inverse.reshape(-1, 3)).T
+    a, b, c = faces.T
+    corners = [(a, ab, ca), (b, bc, ab), (c, ca, bc), (ab, bc, ca)]
+    return np.concatenate([vertices, middle]), np.concatenate([np.stack(f, axis=1) for f in corners])
+
+
+def _grid_faces(rows: int, columns: int, *, wrap_rows: bool, wrap_columns: bool) -> IntArray:
+    """Counter-clockwise triangles of a grid of rows × columns vertices whose columns run along x and rows along y."""
+    r, c = np.meshgrid(
+        np.arange(rows if wrap_rows else rows - 1), np.arange(columns if wrap_columns else columns - 1), indexing="ij"
+    )
+    r, c = r.ravel(), c.ravel()
+    r2, c2 = (r + 1) % rows, (c + 1) % columns
+    a, b, d, e = r * columns + c, r * columns + c2, r2 * columns + c2, r2 * columns + c
+    # Alternating diagonals: a grid of equal diagonals prefers one direction, and its spectrum shows it.
+    even = ((r + c) % 2 == 0)[:, None]
+    first = np.where(even, np.stack([a, b, d], 1), np.stack([a, b, e], 1))
+    second = np.where(even, np.stack([a, d, e], 1), np.stack([b, d, e], 1))
+    return np.concatenate([first, second]).astype(np.int64)
