@@ -1,0 +1,53 @@
+# `make` alone lists what it can do. Everything is installed into .venv; system libraries come from apt where there is apt.
+
+.DEFAULT_GOAL := help
+.NOTPARALLEL: # apt and pip hold locks of their own
+.PHONY: help run test check bench clean clean-all system virtual-screen
+
+# One BLAS thread per process, as the app itself uses: the pools of numpy and scipy stall each other.
+ONE_THREAD := OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1
+
+UNATTENDED := $(if $(DISPLAY)$(WAYLAND_DISPLAY)$(filter Darwin,$(shell uname)),,yes)
+
+help: ## list the targets
+	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/^([a-z-]+):.*## (.*)/make \1\t\2/' | expand -t 18
+
+run: $(if $(UNATTENDED),virtual-screen) .venv/installed ## open the app on a shipped person (no display: write add-viewer.png)
+ifeq ($(UNATTENDED),yes)
+	@.ci/with-screen .venv/bin/add-viewer --screenshot add-viewer.png
+	@echo "There is no display here, so this is what the window shows: $(CURDIR)/add-viewer.png"
+else
+	@.venv/bin/add-viewer
+endif
+
+test: check virtual-screen ## set everything up, check and test
+	@$(ONE_THREAD) .ci/with-screen .venv/bin/python -m pytest -n 2
+
+check: .venv/installed ## lint, format, types, import directions
+	@.venv/bin/ruff check .
+	@.venv/bin/ruff format --check --quiet .
+	@.venv/bin/mypy
+	@.venv/bin/lint-imports --no-logo
+
+bench: virtual-screen .venv/installed ## measure; prints tables, asserts nothing
+	@for script in tests/benchmarks/bench_*.py; do \
+	    echo; echo "== $$script"; \
+	    $(ONE_THREAD) .ci/with-screen env -u OPENBLAS_CORETYPE -u OPENBLAS_L2_SIZE .venv/bin/python $$script || exit 1; \
+	done
+
+clean: ## remove what the tools left behind, but not .venv
+	@rm -rf build dist .pytest_cache .mypy_cache .ruff_cache .import_linter_cache .hypothesis add-viewer.png
+	@find add_core add_viewer tests -name __pycache__ -type d -prune -exec rm -rf {} +
+
+clean-all: clean ## remove .venv too
+	@rm -rf .venv
+
+system:
+	@.ci/system
+
+virtual-screen:
+	@.ci/system --virtual-screen
+
+# Done again when one of these changes. The system's own packages come first, but are no reason to install again.
+.venv/installed: pyproject.toml constraints.txt .ci/environment | system
+	@.ci/environment

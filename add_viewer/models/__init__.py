@@ -1,0 +1,1 @@
+"""Evented state: frozen snapshots and the signals that announce them. No Qt."""
