@@ -1,0 +1,74 @@
+"""Linear finite elements with a direction: the matrices of eq. (24), split by how they depend on θ."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from .._check import FloatArray, IntArray
+from ..geometry import PointCloud, PrincipalFrames, TriangleMesh
+
+
+@dataclass(frozen=True, eq=False)
+class Elements:
+    """Weighted triangles, each with a principal frame: what a mesh's faces and a cloud's fans have in common.
+
+    corners : (t, 3) vertex indices, counter-clockwise about the normal.
+    areas : (t,), unit length², > 0. weights : (t,), 1 for a mesh, 1/3 for a cloud, where each triangle is counted about thrice.
+    along_max, along_min : (t, 3) parts along u_M and u_m of the edge opposite to each corner, unit length.
+    frames : (t,) which row of the shape's principal frames each element uses.
+    """
+
+    corners: IntArray
+    areas: FloatArray
+    weights: FloatArray
+    along_max: FloatArray
+    along_min: FloatArray
+    frames: IntArray
+
+    @classmethod
+    def of(cls, shape: TriangleMesh | PointCloud, frames: PrincipalFrames) -> Elements:
+        """The elements of a mesh: its faces with area. A face without area carries no heat and is left out."""
+        return _faces(shape, frames)
+
+    @property
+    def weighted_areas(self) -> FloatArray:
+        """(t,), unit length²; sums to the shape's area."""
+        return self.weights * self.areas
+
+    def masses(self, vertex_count: int) -> FloatArray:
+        """Lumped mass (n,): a third of the area of each adjacent element, unit length²."""
+        return np.bincount(self.corners.ravel(), np.repeat(self.weighted_areas / 3, 3), vertex_count)
+
+
+def directional_parts(
+    elements: Elements, *, along: FloatArray, across: FloatArray
+) -> tuple[FloatArray, FloatArray, FloatArray]:
+    r"""Element matrices W₀, W_c, W_s, each (t, 3, 3), with :math:`W(θ) = W_0 + \cos 2θ\, W_c + \sin 2θ\, W_s`.
+
+    W(θ) holds area · ∇φ_i · D(θ) ∇φ_j for D(θ) = along · t tᵀ + across · s sᵀ, where t is u_M turned by θ counter-clockwise about
+    the normal and s = n × t. along, across : (t,), without unit.
+    """
+    # A hat function's gradient is the opposite edge turned by 90°: ∇φ = (−q u_M + p u_m)/(2A) for an edge p u_M + q u_m.
+    # Eq. (24) writes D between the edges themselves, which taken literally exchanges `along` and `across`.
+    x, y = -elements.along_min, elements.along_max
+    xx, yy = x[:, :, None] * x[:, None, :], y[:, :, None] * y[:, None, :]
+    xy = x[:, :, None] * y[:, None, :]
+    scale = (elements.weights / (4 * elements.areas))[:, None, None]
+    mean = scale * ((along + across) / 2)[:, None, None]
+    half = scale * ((along - across) / 2)[:, None, None]
+    return mean * (xx + yy), half * (xx - yy), half * (xy + xy.transpose(0, 2, 1))
+
+
+def _faces(mesh: TriangleMesh, frames: PrincipalFrames) -> Elements:
+    kept = np.flatnonzero(mesh.has_area)
+    edges = mesh.opposite_edges[kept]
+    return Elements(
+        corners=mesh.faces[kept],
+        areas=mesh.face_areas[kept],
+        weights=np.ones(len(kept)),
+        along_max=np.einsum("tci,ti->tc", edges, frames.max_direction[kept]),
+        along_min=np.einsum("tci,ti->tc", edges, frames.min_direction[kept]),
+        frames=kept,
+    )

@@ -1,0 +1,104 @@
+"""The sparsity pattern that every operator of a shape shares."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from scipy.sparse import csr_array
+from scipy.sparse.linalg import splu
+
+from .._check import FloatArray, IntArray, read_only
+
+
+@dataclass(frozen=True, eq=False)
+class SparsityPattern:
+    """Which vertices of which elements meet: one symmetric CSR pattern, diagonal included, for all angles and anisotropies.
+
+    Keeping one pattern by construction matters: adding sparse matrices would prune entries that happen to be zero at one angle.
+
+    indptr, indices : CSR row pointers (n + 1,) and sorted columns (nnz,).
+    slots : (t, 3, 3) where the entry (i, j) of each element's matrix is summed up.
+    """
+
+    indptr: IntArray
+    indices: IntArray
+    slots: IntArray
+
+    @classmethod
+    def of(cls, triangles: IntArray, vertex_count: int) -> SparsityPattern:
+        """The pattern of elements with the corners `triangles` (t, 3). Vertices of no element keep their diagonal entry."""
+        n = vertex_count
+        keys = (triangles[:, :, None] * n + triangles[:, None, :]).ravel()
+        entries, inverse = np.unique(np.concatenate([keys, np.arange(n) * (n + 1)]), return_inverse=True)
+        indptr = np.searchsorted(entries, np.arange(n + 1) * n)
+        return cls(
+            indptr=read_only(indptr.astype(np.int64)),
+            indices=read_only((entries % n).astype(np.int64)),
+            slots=read_only(inverse[: len(keys)].reshape(-1, 3, 3).astype(np.int64)),
+        )
+
+    @property
+    def vertex_count(self) -> int:
+        return len(self.indptr) - 1
+
+    @cached_property
+    def diagonal(self) -> IntArray:
+        """(n,): where each row keeps its diagonal entry."""
+        rows = np.repeat(np.arange(self.vertex_count), np.diff(self.indptr))
+        return read_only(np.flatnonzero(self.indices == rows))
+
+    def gather(self, element_matrices: FloatArray) -> FloatArray:
+        """Sum element matrices (t, 3, 3) into values (nnz,)."""
+        return np.bincount(self.slots.ravel(), element_matrices.ravel(), len(self.indices))
+
+    def matrix(self, values: FloatArray) -> csr_array:
+        """The sparse matrix (n, n) with `values` (nnz,) on this pattern."""
+        n = self.vertex_count
+        return csr_array((values, self.indices, self.indptr), shape=(n, n))
+
+    @cached_property
+    def elimination(self) -> EliminationOrder:
+        """An order of the vertices in which sparse factorisations stay sparse, found once for all operators."""
+        return EliminationOrder.of(self)
+
+
+@dataclass(frozen=True, eq=False)
+class EliminationOrder:
+    """A fill-reducing permutation of a pattern.
+
+    order : (n,): the vertex eliminated k-th. position : (n,) its inverse.
+    indptr, indices, entries : the permuted pattern in CSC form, and which value (nnz,) of the original each of its entries is.
+    """
+
+    order: IntArray
+    position: IntArray
+    indptr: IntArray
+    indices: IntArray
+    entries: IntArray
+
+    @classmethod
+    def of(cls, pattern: SparsityPattern) -> EliminationOrder:
+        """Minimum degree, as SuperLU finds it."""
+        n = pattern.vertex_count
+        values = np.full(len(pattern.indices), -1.0)
+        values[pattern.diagonal] = np.diff(pattern.indptr) + 1.0
+        position = splu(
+            pattern.matrix(values).tocsc(),
+            permc_spec="MMD_AT_PLUS_A",
+            diag_pivot_thresh=0.0,
+            options={"SymmetricMode": True},
+        ).perm_c.astype(np.int64)
+        order = np.argsort(position)
+        numbered = pattern.matrix(np.arange(1.0, len(pattern.indices) + 1))
+        permuted = numbered[order][:, order].tocsc()
+        permuted.sort_indices()
+        assert permuted.shape == (n, n)
+        return cls(
+            order=read_only(order),
+            position=read_only(position),
+            indptr=read_only(permuted.indptr),
+            indices=read_only(permuted.indices),
+            entries=read_only(permuted.data.astype(np.int64) - 1),
+        )
