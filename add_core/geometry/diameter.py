@@ -1,0 +1,82 @@
+"""The geodesic diameter: the greatest distance that a path on the surface has to bridge."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+from scipy.sparse import csr_array
+from scipy.sparse.csgraph import connected_components, dijkstra
+
+from .._check import FloatArray, IntArray
+from ..errors import GeometryError
+from .cloud import PointCloud
+from .geodesics import GEODESIC_NEIGHBOURS, exact_distances
+from .mesh import TriangleMesh
+from .neighbours import nearest_neighbours
+from .surface_pieces import surface_pieces
+
+SPREAD_POINTS = 8
+"""How many points far from one another are tried as ends of the longest path."""
+MOST_PIECES = 8
+"""Pieces whose diameter is measured: those of the largest bounding boxes."""
+
+
+def geodesic_diameter(shape: TriangleMesh | PointCloud) -> float:
+    """Greatest geodesic distance between two points of one connected piece of the shape, in the shape's own unit.
+
+    An estimate from below, and deterministic: eight points far from one another (the tips of hands, feet and head
+    on a person) are tried as ends by paths along edges, and from the best of them the exact distance to the
+    farthest vertex is the result. One exact solution: 0.2 s at 7K vertices, a few seconds at 50K.
+
+    Raises GeometryError if the shape has no extent.
+    """
+    pieces = _cloud_pieces(shape) if isinstance(shape, PointCloud) else _mesh_pieces(shape)
+    diameter = max(
+        (float(measure(_best_end(positions, lengths)).max()) for positions, lengths, measure in pieces), default=0.0
+    )
+    if diameter == 0.0:
+        raise GeometryError(
+            f"the shape {shape.name!r} has no extent: no two connected vertices lie apart. Is it the right file?"
+        )
+    return diameter
+
+
+_Measure = Callable[[int], FloatArray]
+_Piece = tuple[FloatArray, csr_array, _Measure]  # positions, lengths of edges, distances from a node
+
+
+def _mesh_pieces(mesh: TriangleMesh) -> list[_Piece]:
+    pieces = sorted(
+        surface_pieces(mesh), key=lambda piece: -float(np.ptp(piece.positions, axis=0) @ np.ones(3)) * piece.unit
+    )
+    return [(piece.positions, piece.edge_lengths, exact_distances(piece)) for piece in pieces[:MOST_PIECES]]
+
+
+def _cloud_pieces(cloud: PointCloud) -> list[_Piece]:
+    if cloud.vertex_count == 1:
+        return []
+    graph = nearest_neighbours(cloud.points, GEODESIC_NEIGHBOURS).lengths
+    labels = connected_components(graph, directed=False)[1]
+    groups: list[IntArray] = [np.flatnonzero(labels == label) for label in np.unique(labels)]
+    groups.sort(key=lambda members: -float(np.ptp(cloud.points[members], axis=0).sum()))
+    return [_cloud_piece(cloud, graph, members) for members in groups[:MOST_PIECES]]
+
+
+def _cloud_piece(cloud: PointCloud, graph: csr_array, members: IntArray) -> _Piece:
+    part = graph[members][:, members]
+    return cloud.points[members], part, lambda node: np.asarray(dijkstra(part, directed=False, indices=[node])[0])
+
+
+def _best_end(positions: FloatArray, lengths: csr_array) -> int:
+    """The node from which the farthest node along edges is farthest, among nodes chosen far from one another."""
+    node = int(np.argmax(((positions - positions.mean(axis=0)) ** 2).sum(axis=1)))
+    nearest = np.full(len(positions), np.inf)
+    best, reach = node, -1.0
+    for _ in range(min(SPREAD_POINTS, len(positions))):
+        distances = dijkstra(lengths, directed=False, indices=[node])[0]
+        if distances.max() > reach:
+            best, reach = node, float(distances.max())
+        nearest = np.minimum(nearest, distances)
+        node = int(np.argmax(nearest))
+    return best

@@ -1,0 +1,97 @@
+"""Geodesic distances on meshes and point clouds."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Literal
+
+import numpy as np
+
+from .._check import FloatArray, IntArray, one_of, vertex_index
+from ..errors import ParameterError
+from .cloud import PointCloud
+from .mesh import TriangleMesh
+from .neighbours import nearest_neighbours
+from .surface_pieces import SurfacePiece, surface_pieces
+
+GEODESIC_NEIGHBOURS = 24
+"""Length of the chords between a cloud's points: paths of fewer neighbours zigzag, of more cut corners."""
+
+
+def geodesic_distances(
+    mesh: TriangleMesh | PointCloud,
+    sources: int | Sequence[int] | IntArray,
+    *,
+    method: Literal["exact", "heat"] = "exact",
+) -> FloatArray:
+    """Length of the shortest path on the surface from each source to every vertex, in the shape's own unit.
+
+    sources : a vertex number or several. Each gives a row of its own.
+    method : "exact" measures straight lines across the faces (Mitchell, Mount & Papadimitriou 1987): about 0.1 s a
+        source at 7K vertices, 1 to 5 s at 50K. "heat" (Crane, Weischedel & Wardetzky 2013) takes 3 ms a source at
+        7K vertices and errs by up to 4 % of the diameter; it also replaces "exact" on pieces where more than two
+        faces share an edge. A cloud has no faces: its distances run along chords between neighbouring points,
+        whatever the method.
+
+    Returns (number of sources, n), 0 at the source, inf where no path leads: on other components and at vertices
+    that no face uses.
+    Raises ParameterError if a source is not a vertex or the method is unknown.
+    """
+    exact = one_of("method", method, ("exact", "heat")) == "exact"
+    chosen = _source_list(sources, mesh.vertex_count)
+    if isinstance(mesh, PointCloud):
+        return chord_distances(mesh, chosen)
+    distances = np.full((len(chosen), mesh.vertex_count), np.inf)
+    for piece in surface_pieces(mesh):
+        rows = np.flatnonzero(piece.node_of[chosen] >= 0)
+        if len(rows):
+            measure = exact_distances(piece) if exact else heat_distances(piece)
+            for row in rows:
+                distances[row, piece.members] = measure(int(piece.node_of[chosen[row]]))[piece.node_of[piece.members]]
+    distances[np.arange(len(chosen)), chosen] = 0.0
+    return distances
+
+
+def chord_distances(cloud: PointCloud, sources: IntArray) -> FloatArray:
+    """(len(sources), n): lengths of shortest paths along chords between neighbouring points of a cloud."""
+    from scipy.sparse.csgraph import dijkstra
+
+    return np.asarray(
+        dijkstra(nearest_neighbours(cloud.points, GEODESIC_NEIGHBOURS).lengths, directed=False, indices=sources)
+    )
+
+
+def exact_distances(piece: SurfacePiece) -> Callable[[int], FloatArray]:
+    """Exact distances from one of the piece's nodes to all of them; by the heat method if the piece is no
+    manifold."""
+    if (
+        not piece.is_manifold
+    ):  # the exact method needs at most two faces at an edge; its library ends the process otherwise
+        return heat_distances(piece)
+    from pygeodesic.geodesic import PyGeodesicAlgorithmExact
+
+    solver = PyGeodesicAlgorithmExact(piece.positions, piece.faces)
+
+    def measure(node: int) -> FloatArray:
+        return np.asarray(solver.geodesicDistances(np.array([node]), None)[0]) * piece.unit
+
+    return measure
+
+
+def heat_distances(piece: SurfacePiece) -> Callable[[int], FloatArray]:
+    """Distances by the heat method from one of the piece's nodes to all of them."""
+    from potpourri3d import MeshHeatMethodDistanceSolver
+
+    solver = MeshHeatMethodDistanceSolver(piece.positions, piece.faces)
+
+    def measure(node: int) -> FloatArray:
+        return np.asarray(solver.compute_distance(node)) * piece.unit
+
+    return measure
+
+
+def _source_list(sources: int | Sequence[int] | IntArray, vertex_count: int) -> IntArray:
+    listed = [sources] if np.ndim(sources) == 0 else list(sources)  # type: ignore[arg-type]
+    if not listed:
+        raise ParameterError("sources must name at least one vertex, but it is empty.")
+    return np.array([vertex_index("sources", source, vertex_count) for source in listed], dtype=np.int64)
