@@ -4,9 +4,7 @@
 .NOTPARALLEL: # apt and pip hold locks of their own
 .PHONY: help run test check bench clean clean-all system virtual-screen
 
-# One BLAS thread per process, as the app itself uses: the pools of numpy and scipy stall each other.
-ONE_THREAD := OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1
-
+# Whether a window can be shown: a Mac always can, elsewhere there is an X or a Wayland display to name.
 UNATTENDED := $(if $(DISPLAY)$(WAYLAND_DISPLAY)$(filter Darwin,$(shell uname)),,yes)
 
 help: ## list the targets
@@ -21,7 +19,7 @@ else
 endif
 
 test: check virtual-screen ## set everything up, check and test
-	@$(ONE_THREAD) .ci/with-screen .venv/bin/python -m pytest -n 2
+	@.ci/with-screen .venv/bin/python -m pytest -n 2
 
 check: .venv/installed ## lint, format, types, import directions
 	@.venv/bin/ruff check .
@@ -29,10 +27,13 @@ check: .venv/installed ## lint, format, types, import directions
 	@.venv/bin/mypy
 	@.venv/bin/lint-imports --no-logo
 
+# One BLAS thread per process, as the app uses them, on kernels that BLAS chooses for this machine by itself.
+MEASURED := env -u OPENBLAS_CORETYPE -u OPENBLAS_L2_SIZE OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1
+
 bench: virtual-screen .venv/installed ## measure; prints tables, asserts nothing
 	@for script in tests/benchmarks/bench_*.py; do \
 	    echo; echo "== $$script"; \
-	    $(ONE_THREAD) .ci/with-screen env -u OPENBLAS_CORETYPE -u OPENBLAS_L2_SIZE .venv/bin/python $$script || exit 1; \
+	    .ci/with-screen $(MEASURED) .venv/bin/python $$script || exit 1; \
 	done
 
 clean: ## remove what the tools left behind, but not .venv
