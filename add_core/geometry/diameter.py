@@ -18,6 +18,8 @@ from .surface_pieces import surface_pieces
 
 SPREAD_POINTS = 8
 """How many points far from one another are tried as ends of the longest path."""
+TIE = 1e-9
+"""Lengths this close, relatively, count as equal: symmetric shapes must not choose by rounding."""
 MOST_PIECES = 8
 """Pieces whose diameter is measured: those of the largest bounding boxes."""
 
@@ -70,13 +72,17 @@ def _cloud_piece(cloud: PointCloud, graph: csr_array, members: IntArray) -> _Pie
 
 def _best_end(positions: FloatArray, lengths: csr_array) -> int:
     """The node from which the farthest node along edges is farthest, among nodes chosen far from one another."""
-    node = int(np.argmax(((positions - positions.mean(axis=0)) ** 2).sum(axis=1)))
+    node = _first_greatest(((positions - positions.mean(axis=0)) ** 2).sum(axis=1))
     nearest = np.full(len(positions), np.inf)
     best, reach = node, -1.0
     for _ in range(min(SPREAD_POINTS, len(positions))):
         distances = dijkstra(lengths, directed=False, indices=[node])[0]
-        if distances.max() > reach:
+        if distances.max() > reach * (1 + TIE):
             best, reach = node, float(distances.max())
         nearest = np.minimum(nearest, distances)
-        node = int(np.argmax(nearest))
+        node = _first_greatest(nearest)
     return best
+
+
+def _first_greatest(values: FloatArray) -> int:
+    return int(np.argmax(values >= values.max() * (1 - TIE)))
