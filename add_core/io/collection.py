@@ -9,9 +9,7 @@ import numpy as np
 
 from .._check import IntArray, one_of, read_only
 from ..errors import ParameterError
-from ..geometry import PointCloud, TriangleMesh
-
-Shape = TriangleMesh | PointCloud
+from .contents import Shape
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

@@ -1,0 +1,151 @@
+"""Reading shapes from files and writing them."""
+
+from __future__ import annotations
+
+import logging
+import os
+import secrets
+import stat
+from collections.abc import Mapping
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ..errors import AddError, ParameterError, ShapeFileError
+from .contents import Fields, FileContents, Shape
+from .formats import FORMATS, extensions, format_of
+from .sniffing import looks_like
+
+_log = logging.getLogger(__name__)
+_PACKED = ("gzip", "bzip2", "xz", "7-Zip")
+
+StrPath = str | os.PathLike[str]
+
+
+def load_shape(path: StrPath) -> Shape:
+    """The shape in a file: a TriangleMesh, or a PointCloud if the file holds points alone; named after the file.
+
+    Reads OFF, OBJ, PLY, STL, VTP, legacy VTK, GLB and glTF, XYZ and NPZ. Vertices keep the file's order and number,
+    also duplicate and unreferenced ones; STL, which has no vertices, gets one for every distinct corner, by first
+    appearance. Polygons of more than three corners are split into fans, which is logged. Coordinates keep their unit.
+
+    Raises ShapeFileError or GeometryError, with the file's name, if there is no such file or no shape in it.
+    """
+    path = Path(path)
+    try:
+        return _contents(path).shape(path.stem)
+    except AddError as error:
+        raise type(error)(f"{path}: {error}") from None
+
+
+def load_fields(path: StrPath) -> Fields:
+    """The quantities at the vertices of a PLY, VTP, VTK or NPZ file: name → (n,) or (n, k), float64, in vertex order.
+
+    Raises ShapeFileError, with the file's name, if it cannot be read; the result is empty if there are none.
+    """
+    path = Path(path)
+    try:
+        if not format_of(path).holds_fields:
+            raise ShapeFileError(_no_fields(format_of(path).name))
+        return _contents(path).fields
+    except AddError as error:
+        raise type(error)(f"{path}: {error}") from None
+
+
+def save_shape(shape: Shape, path: StrPath, fields: Mapping[str, ArrayLike] | None = None) -> None:
+    """Write a shape, and quantities at its vertices, in the format that the extension of `path` names.
+
+    fields : name → (n,) or (n, k). PLY, VTP, VTK and NPZ hold them, in double precision. MeshLab colours a PLY file by
+        the field named "quality"; ParaView shows the fields of VTP and VTK files.
+    The file appears whole or not at all: it is written beside its place and then moved there.
+
+    Raises ShapeFileError if the format cannot hold the shape or fields, or the file cannot be written; ParameterError
+    if a field does not have one row a vertex.
+    """
+    path = Path(path)
+    try:
+        known = format_of(path)
+        if known.write is None:
+            raise ShapeFileError(f"{known.name} files are read, but not written. Choose .glb.")
+        if fields and not known.holds_fields:
+            raise ShapeFileError(_no_fields(known.name))
+        _replace(path, known.write(shape, _checked_fields(fields or {}, shape.vertex_count)))
+    except AddError as error:
+        raise type(error)(f"{path}: {error}") from None
+
+
+def _contents(path: Path) -> FileContents:
+    known = format_of(path) if not path.is_dir() else None
+    data = _bytes_of(path)
+    looks = looks_like(data)
+    if known is None:
+        raise ShapeFileError("is a folder, not a file.")
+    if looks is not None and looks not in known.looks:
+        raise ShapeFileError(_misnamed(looks, known.name))
+    return known.read(data, path)
+
+
+def _bytes_of(path: Path) -> bytes:
+    try:
+        status = path.stat()
+        if stat.S_ISDIR(status.st_mode):
+            raise ShapeFileError("is a folder, not a file.")
+        if not stat.S_ISREG(status.st_mode):
+            raise ShapeFileError("is not a regular file.")  # a pipe or device may never end
+        data = path.read_bytes()
+    except FileNotFoundError:
+        raise ShapeFileError("there is no such file.") from None
+    except (OSError, ValueError) as error:  # ValueError: a null character in the name
+        raise ShapeFileError(f"cannot be read ({getattr(error, 'strerror', None) or error}).") from None
+    if not data.strip(b" \t\r\n"):
+        raise ShapeFileError("is empty.")
+    return data
+
+
+def _misnamed(looks: str, expected: str) -> str:
+    if looks in _PACKED:
+        return f"is compressed with {looks}. Unpack it first."
+    if looks == "Git LFS pointer":
+        return "holds only a Git LFS pointer. Fetch the file itself with git lfs pull."
+    article = "an" if looks[0] in "AEIOFHMNSX" and looks not in ("Blender",) else "a"
+    endings = [ext for ext, known in FORMATS.items() if looks == known.looks[0]]
+    remedy = f" Rename it to end in {endings[0]}." if endings else f" Export the shape as {expected}."
+    return f"is named like {expected}, but looks like {article} {looks} file.{remedy}"
+
+
+def _no_fields(name: str) -> str:
+    return f"{name} files hold no fields. Choose one of {', '.join(extensions(holding_fields=True))}."
+
+
+def _checked_fields(fields: Mapping[str, ArrayLike], vertex_count: int) -> Fields:
+    checked: Fields = {}
+    for name, values in fields.items():
+        try:
+            array = np.asarray(values, dtype=np.float64)
+        except (TypeError, ValueError):
+            raise ParameterError(f"field {name!r} must hold real numbers, but it does not.") from None
+        if not isinstance(name, str) or not name.strip():
+            raise ParameterError(f"a field must have a name, but it is {name!r}.")
+        if array.ndim not in (1, 2) or len(array) != vertex_count or array.size == 0:
+            raise ParameterError(
+                f"field {name!r} must have shape ({vertex_count},) or ({vertex_count}, k), but it has {array.shape}."
+            )
+        checked[name] = array
+    return checked
+
+
+def _replace(path: Path, data: bytes) -> None:
+    """A reader sees the old file or the whole new one, also if the disk is full or the program dies."""
+    temporary = path.with_name(f".{path.name}.{secrets.token_hex(4)}.part")
+    try:
+        try:
+            with temporary.open("xb") as file:
+                file.write(data)
+                file.flush()
+                os.fsync(file.fileno())
+            os.replace(temporary, path)
+        finally:
+            temporary.unlink(missing_ok=True)
+    except OSError as error:
+        raise ShapeFileError(f"cannot be written ({error.strerror or error}).") from None

@@ -1,0 +1,58 @@
+"""The file formats that are read and written, by file name extension."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+from ..errors import ShapeFileError
+from . import gltf, npz, obj, off, ply, stl, vtk_data, xyz
+from .contents import Fields, FileContents, Shape
+
+
+@dataclass(frozen=True)
+class Format:
+    """How one kind of file is read and written.
+
+    name : what people call it. looks : what its content may look like (`sniffing.looks_like`), its own name first.
+    holds_fields : whether it carries quantities at the vertices.
+    """
+
+    name: str
+    read: Callable[[bytes, Path], FileContents]
+    write: Callable[[Shape, Fields], bytes] | None
+    looks: tuple[str, ...]
+    holds_fields: bool = False
+
+
+def _whole(read: Callable[[bytes], FileContents]) -> Callable[[bytes, Path], FileContents]:
+    return lambda data, path: read(data)
+
+
+FORMATS: dict[str, Format] = {
+    ".off": Format("OFF", _whole(off.read), off.write, ("OFF",)),
+    ".obj": Format("OBJ", _whole(obj.read), obj.write, ("OBJ",)),
+    ".ply": Format("PLY", _whole(ply.read), ply.write, ("PLY",), holds_fields=True),
+    ".stl": Format("STL", _whole(stl.read), stl.write, ("STL",)),
+    ".vtp": Format("VTP", _whole(vtk_data.read_xml), vtk_data.write_xml, ("VTP",), holds_fields=True),
+    ".vtk": Format("VTK", _whole(vtk_data.read_legacy), vtk_data.write_legacy, ("VTK",), holds_fields=True),
+    ".glb": Format("GLB", gltf.read, gltf.write, ("GLB", "glTF")),
+    ".gltf": Format("glTF", gltf.read, None, ("glTF", "GLB")),
+    ".xyz": Format("XYZ", _whole(xyz.read), xyz.write, ("XYZ",)),
+    ".npz": Format("NPZ", _whole(npz.read), npz.write, ("ZIP",), holds_fields=True),
+}
+
+
+def format_of(path: Path) -> Format:
+    """The format that the extension of `path` stands for, in upper or lower case; ShapeFileError if none does."""
+    known = FORMATS.get(path.suffix.lower())
+    if known is None:
+        named = f"the extension {path.suffix!r} is not supported" if path.suffix else "the name has no extension"
+        raise ShapeFileError(f"{named}. Supported are {', '.join(FORMATS)}.")
+    return known
+
+
+def extensions(*, holding_fields: bool = False) -> tuple[str, ...]:
+    """Extensions that shapes can be read from, or that can also be written with fields."""
+    return tuple(ext for ext, known in FORMATS.items() if known.holds_fields or not holding_fields)
