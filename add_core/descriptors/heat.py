@@ -13,7 +13,8 @@ from ..spectra import Spectrum
 def heat_kernel_signature(spectrum: Spectrum, times: ArrayLike) -> FloatArray:
     """HKS of every vertex, h_t(x, x) = Σ_k exp(−t λ_k) φ_k(x)²: (n, T), 1/length².
 
-    times : (T,), length², > 0. The diagonal of eq. (7), Sun et al. 2009; with the spectrum of an anisotropic operator, of eq. (17).
+    times : (T,), length², > 0. The diagonal of eq. (7), Sun et al. 2009; with the spectrum of an anisotropic
+        operator, of eq. (17).
     Raises ParameterError if a time is not positive.
     """
     moments = positive_array("times", times)
@@ -21,7 +22,8 @@ def heat_kernel_signature(spectrum: Spectrum, times: ArrayLike) -> FloatArray:
 
 
 def heat_kernel_times(spectrum: Spectrum, count: int = 100) -> FloatArray:
-    """The times of Sun et al. 2009, (count,), length²: geometric from 4 ln 10/λ_K to 4 ln 10/λ_1, the lowest non-zero eigenvalue.
+    """The times of Sun et al. 2009, (count,), length²: geometric from 4 ln 10/λ_K to 4 ln 10/λ_1, the lowest
+    non-zero eigenvalue.
 
     Raises ParameterError if the spectrum holds no non-zero eigenvalue.
     """
@@ -29,5 +31,5 @@ def heat_kernel_times(spectrum: Spectrum, count: int = 100) -> FloatArray:
     highest = spectrum.eigenvalues[-1]
     moving = spectrum.eigenvalues[spectrum.eigenvalues > 1e-8 * highest]
     if not len(moving):
-        raise ParameterError("spectrum must hold a non-zero eigenvalue to choose times from. Compute more eigenvalues.")
+        raise ParameterError("spectrum must hold a non-zero eigenvalue to take times from. Compute more of them.")
     return np.asarray(4 * np.log(10) / np.geomspace(highest, moving[0], count))

@@ -13,17 +13,19 @@ _AT_BOUNDARY = 1e-3  # weight of faces that lack the bend of an edge, so that wh
 
 
 def face_curvature_tensors(mesh: TriangleMesh, *, rounds: int = SMOOTHING_ROUNDS) -> FloatArray:
-    r"""Curvature tensor on every face: at the vertices first, averaged over their neighbourhoods, then over each face's corners.
+    r"""Curvature tensor on every face: at the vertices first, averaged over their neighbourhoods, then over each
+    face's corners.
 
-    :math:`T(B) = \frac{1}{|B|}\sum_{e} \beta(e)\,|e \cap B|\;\bar e \bar e^\top` with β the signed angle between the two faces
-    of the edge e and ē its unit direction. B is the faces around a vertex (an edge's length is shared by its two faces), then
-    `rounds` times the mean over faces' corners and back. Dividing by the area makes it a curvature, in 1/length.
-    *Tensors* are averaged, never direction vectors: those would cancel where they happen to point opposite ways.
+    :math:`T(B) = \frac{1}{|B|}\sum_{e} \beta(e)\,|e \cap B|\;\bar e \bar e^\top` with β the signed angle between
+    the two faces of the edge e and ē its unit direction. B is the faces around a vertex (an edge's length is shared
+    by its two faces), then `rounds` times the mean over faces' corners and back. Dividing by the area makes it a
+    curvature, in 1/length. *Tensors* are averaged, never direction vectors: those would cancel where they happen to
+    point opposite ways.
 
-    Returns (m, 3, 3), symmetric. An edge bends *across* itself, so the eigenvector of the largest |eigenvalue| is the direction
-    of MINIMUM curvature. Positive where the surface is convex (bends away from its normal).
-    Edges with one face, with more than two, or between faces of opposite orientation have no angle and add nothing; the faces
-    beside them take their curvature from whole faces nearby.
+    Returns (m, 3, 3), symmetric. An edge bends *across* itself, so the eigenvector of the largest |eigenvalue| is
+    the direction of MINIMUM curvature. Positive where the surface is convex (bends away from its normal).
+    Edges with one face, with more than two, or between faces of opposite orientation have no angle and add nothing;
+    the faces beside them take their curvature from whole faces nearby.
     """
     weight = _face_weights(mesh)
     around = _faces_around_vertices(mesh)
@@ -38,7 +40,7 @@ def face_curvature_tensors(mesh: TriangleMesh, *, rounds: int = SMOOTHING_ROUNDS
 
 
 def dihedral_angles(mesh: TriangleMesh) -> FloatArray:
-    """Signed angle (e,) in radians between the normals of the two faces at each of `mesh.inner_edges`; positive where convex."""
+    """Signed angles (e,) between the faces at `mesh.inner_edges`, in radians; positive where convex."""
     hinge = mesh.inner_edges
     left, right = mesh.face_normals[hinge.faces[:, 0]], mesh.face_normals[hinge.faces[:, 1]]
     direction = _unit(mesh.vertices[hinge.vertices[:, 1]] - mesh.vertices[hinge.vertices[:, 0]])
@@ -47,7 +49,7 @@ def dihedral_angles(mesh: TriangleMesh) -> FloatArray:
 
 
 def _face_measures(mesh: TriangleMesh) -> FloatArray:
-    """(m, 9): ½ Σ β |e| ē ēᵀ over the edges of each face: its half of what bends there. Length, not yet divided by area."""
+    """(m, 9): ½ Σ β |e| ē ēᵀ over each face's edges: its half of what bends there, not yet divided by area."""
     hinge = mesh.inner_edges
     vector = mesh.vertices[hinge.vertices[:, 1]] - mesh.vertices[hinge.vertices[:, 0]]
     half = np.einsum("e,ei,ej->eij", dihedral_angles(mesh) / 2, vector, _unit(vector)).reshape(-1, 9)

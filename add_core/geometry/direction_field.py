@@ -47,7 +47,7 @@ class TangentBasis:
         return np.asarray(z * z)
 
     def transport(self, pairs: IntArray) -> ComplexArray:
-        """(p,): factors that carry a double angle from plane pairs[:, 0] to plane pairs[:, 1] by the least rotation."""
+        """Factors (p,) that carry a double angle from plane pairs[:, 0] to pairs[:, 1] by the least rotation."""
         a, b = pairs.T
         axis = np.cross(self.normals[a], self.normals[b])
         cosine = np.einsum("fi,fi->f", self.normals[a], self.normals[b])
@@ -64,9 +64,9 @@ def fill_axes(
 ) -> ComplexArray:
     """Replace axes that are not `trusted` by the smoothest continuation of those that are.
 
-    Solves the connection Laplacian of order 2 (axes, not vectors) with the trusted axes held fixed. A connected piece that has no
-    trusted axis at all, such as a plane or a perfect sphere, continues its own longest axis of inertia instead:
-    arbitrary, but it moves with the shape. Rows that are not `usable` take no part.
+    Solves the connection Laplacian of order 2 (axes, not vectors) with the trusted axes held fixed. A connected
+    piece that has no trusted axis at all, such as a plane or a perfect sphere, continues its own longest axis of
+    inertia instead: arbitrary, but it moves with the shape. Rows that are not `usable` take no part.
     """
     pairs = neighbours[usable[neighbours].all(axis=1)]
     fixed = trusted & usable

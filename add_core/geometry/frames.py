@@ -1,4 +1,4 @@
-"""Principal frames: where the directions of maximum and minimum curvature lie, how strong they are and how far to trust them."""
+"""Principal frames: where the surface bends most and least, how much, and how far to trust that."""
 
 from __future__ import annotations
 
@@ -21,12 +21,14 @@ FLAT = 1e-2
 class PrincipalFrames:
     """Orthonormal principal frames, one per face of a mesh or per point of a cloud; m rows.
 
-    max_direction, min_direction : (m, 3), unit, tangent: directions of maximum and minimum ABSOLUTE normal curvature, u_M and u_m.
-        Only their axes count, not their signs. (max_direction, min_direction, normals) is right-handed.
+    max_direction, min_direction : (m, 3), unit, tangent: directions of maximum and minimum ABSOLUTE normal
+        curvature, u_M and u_m. Only their axes count, not their signs. (max_direction, min_direction, normals) is
+        right-handed.
     normals : (m, 3), unit, outward.
-    max_curvature, min_curvature : (m,), signed, 1/length, |max| ≥ |min|; positive where the surface is convex (a ball's are 1/r).
-    confidence : (m,), from 0 (flat, umbilic, or equally curved both ways: no direction) to 1 (a cylinder). Where it is below
-        `TRUSTED` the directions are filled in from confident neighbours; the curvatures stay as measured.
+    max_curvature, min_curvature : (m,), signed, 1/length, |max| ≥ |min|; positive where the surface is convex (a
+        ball's are 1/r).
+    confidence : (m,), from 0 (flat, umbilic, or equally curved both ways: no direction) to 1 (a cylinder). Where it
+        is below `TRUSTED` the directions are filled in from confident neighbours; the curvatures stay as measured.
 
     Faces without area have zero vectors, zero curvature and zero confidence.
     """
@@ -56,10 +58,13 @@ def frames_from_tensors(
     size: float,
     usable: BoolArray | None = None,
 ) -> PrincipalFrames:
-    """Frames from curvature tensors (m, 3, 3) whose largest |eigenvalue| belongs to the direction of MINIMUM curvature.
+    """Frames from curvature tensors (m, 3, 3) whose largest |eigenvalue| belongs to the direction of MINIMUM
+    curvature.
 
-    normals : (m, 3), unit. positions : (m, 3). neighbours : (p, 2) pairs of adjacent rows, along which uncertain directions
-    are filled in. size : a length that says what counts as flat. usable : (m,), False where there is no tangent plane.
+    normals : (m, 3), unit. positions : (m, 3). neighbours : (p, 2) pairs of adjacent rows, along which uncertain
+        directions
+    are filled in. size : a length that says what counts as flat. usable : (m,), False where there is no tangent
+        plane.
     """
     basis = TangentBasis.of(normals, positions)
     usable = np.ones(len(normals), dtype=bool) if usable is None else usable

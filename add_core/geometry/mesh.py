@@ -36,8 +36,8 @@ class TriangleMesh:
     faces : (m, 3) int64, 0-based, counter-clockwise when seen from outside.
     name : what to call the shape in messages and windows.
 
-    Arrays are copied and read-only. Defects that have an honest answer (unreferenced vertices, faces without area, several
-    components, boundaries) are kept as they are; `add_core.geometry.inspect` reports them.
+    Arrays are copied and read-only. Defects that have an honest answer (unreferenced vertices, faces without area,
+    several components, boundaries) are kept as they are; `add_core.geometry.inspect` reports them.
 
     Raises GeometryError if an array has the wrong shape, a vertex is not finite or a face points to no vertex.
     """
@@ -91,7 +91,7 @@ class TriangleMesh:
     def vertex_areas(self) -> FloatArray:
         """(n,), unit length²: a third of each adjacent face; 0 for unreferenced vertices. The lumped mass S."""
         share = np.repeat(np.where(self.has_area, self.face_areas, 0.0) / 3.0, 3)
-        return read_only(np.bincount(self.faces.ravel(), share, self.vertex_count))
+        return read_only(np.bincount(self.faces.ravel(), share, self.vertex_count).astype(np.float64))
 
     @cached_property
     def vertex_normals(self) -> FloatArray:
@@ -113,7 +113,7 @@ class TriangleMesh:
 
     @cached_property
     def edge_face_counts(self) -> IntArray:
-        """(e,): how many faces share each of `edges`: 1 on a boundary, 2 inside, more where the mesh is not a manifold."""
+        """(e,): faces that share each of `edges`: 1 on a boundary, 2 inside, more where the mesh is no manifold."""
         _, counts = np.unique(np.sort(self._half_edges, axis=1), axis=0, return_counts=True)
         return read_only(counts.astype(np.int64))
 
@@ -124,7 +124,7 @@ class TriangleMesh:
 
     @cached_property
     def inner_edges(self) -> InnerEdges:
-        """Edges with exactly two faces of the same orientation, both with area; the others have no angle to speak of."""
+        """Edges with exactly two faces of one orientation, both with area; the others have no angle."""
         usable = np.flatnonzero(self.has_area)
         half = self.faces[usable][:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)
         face = np.repeat(usable, 3)
@@ -140,7 +140,7 @@ class TriangleMesh:
 
     @cached_property
     def component_labels(self) -> IntArray:
-        """(n,): which connected component each vertex belongs to, numbered by first vertex; unreferenced ones stand alone."""
+        """(n,): the connected component of each vertex, numbered by first vertex; unreferenced ones stand alone."""
         i, j = self.edges.T
         n = self.vertex_count
         graph = csr_array((np.ones(len(i), dtype=np.int8), (i, j)), shape=(n, n))

@@ -32,7 +32,7 @@ def cylinder(*, radius: float = 1.0, height: float = 2.0, around: int = 48, alon
 
 
 def torus(*, major: float = 1.0, minor: float = 0.4, around: int = 64, through: int = 32) -> TriangleMesh:
-    """Torus about z, normals outward: curvature 1/r through the tube (maximum), cos φ/(R + r cos φ) around (minimum)."""
+    """Torus about z, normals outward: curvature 1/r through the tube (max), cos φ/(R + r cos φ) around it (min)."""
     u = 2 * np.pi * np.arange(around) / around
     v = 2 * np.pi * np.arange(through) / through
     ring = major + minor * np.cos(v)[None, :]
@@ -44,7 +44,8 @@ def torus(*, major: float = 1.0, minor: float = 0.4, around: int = 64, through: 
 
 
 def rectangle(width: float = 1.0, height: float = 1.0, *, n: int = 16) -> TriangleMesh:
-    """Flat width × height rectangle in the xy plane, normal +z, n + 1 vertices along its shorter side, squares split alternately.
+    """Flat width × height rectangle in the xy plane, normal +z, n + 1 vertices along its shorter side, squares
+    split alternately.
 
     Laplacian eigenvalues with free boundary: π²(i²/w² + j²/h²), i, j ≥ 0.
     """
@@ -57,16 +58,12 @@ def rectangle(width: float = 1.0, height: float = 1.0, *, n: int = 16) -> Triang
 
 def _icosahedron() -> tuple[FloatArray, IntArray]:
     g = (1 + np.sqrt(5)) / 2
-    vertices = np.array(
-        [(-1, g, 0), (1, g, 0), (-1, -g, 0), (1, -g, 0), (0, -1, g), (0, 1, g)]
-        + [(0, -1, -g), (0, 1, -g), (g, 0, -1), (g, 0, 1), (-g, 0, -1), (-g, 0, 1)]
-    ) / np.sqrt(1 + g * g)
-    faces = np.array(
-        [(0, 11, 5), (0, 5, 1), (0, 1, 7), (0, 7, 10), (0, 10, 11), (1, 5, 9), (5, 11, 4), (11, 10, 2), (10, 7, 6)]
-        + [(7, 1, 8), (3, 9, 4), (3, 4, 2), (3, 2, 6), (3, 6, 8), (3, 8, 9), (4, 9, 5), (2, 4, 11), (6, 2, 10)]
-        + [(8, 6, 7), (9, 8, 1)]
-    )
-    return vertices, faces
+    vertices = [(-1, g, 0), (1, g, 0), (-1, -g, 0), (1, -g, 0), (0, -1, g), (0, 1, g)]
+    vertices += [(0, -1, -g), (0, 1, -g), (g, 0, -1), (g, 0, 1), (-g, 0, -1), (-g, 0, 1)]
+    faces = [(0, 11, 5), (0, 5, 1), (0, 1, 7), (0, 7, 10), (0, 10, 11), (1, 5, 9), (5, 11, 4), (11, 10, 2), (10, 7, 6)]
+    faces += [(7, 1, 8), (3, 9, 4), (3, 4, 2), (3, 2, 6), (3, 6, 8), (3, 8, 9), (4, 9, 5), (2, 4, 11), (6, 2, 10)]
+    faces += [(8, 6, 7), (9, 8, 1)]
+    return np.array(vertices) / np.sqrt(1 + g * g), np.array(faces)
 
 
 def _split_in_four(vertices: FloatArray, faces: IntArray) -> tuple[FloatArray, IntArray]:
@@ -85,11 +82,12 @@ def _grid_faces(rows: int, columns: int, *, wrap_rows: bool, wrap_columns: bool)
     r, c = np.meshgrid(
         np.arange(rows if wrap_rows else rows - 1), np.arange(columns if wrap_columns else columns - 1), indexing="ij"
     )
-    r, c = r.ravel(), c.ravel()
-    r2, c2 = (r + 1) % rows, (c + 1) % columns
-    a, b, d, e = r * columns + c, r * columns + c2, r2 * columns + c2, r2 * columns + c
+    row, column = r.ravel(), c.ravel()
+    above, right = (row + 1) % rows, (column + 1) % columns
+    a, b = row * columns + column, row * columns + right
+    d, e = above * columns + right, above * columns + column
     # Alternating diagonals: a grid of equal diagonals prefers one direction, and its spectrum shows it.
-    even = ((r + c) % 2 == 0)[:, None]
+    even = ((row + column) % 2 == 0)[:, None]
     first = np.where(even, np.stack([a, b, d], 1), np.stack([a, b, e], 1))
     second = np.where(even, np.stack([a, d, e], 1), np.stack([b, d, e], 1))
     return np.concatenate([first, second]).astype(np.int64)

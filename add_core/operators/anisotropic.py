@@ -19,7 +19,8 @@ _log = logging.getLogger(__name__)
 
 
 class AnisotropicLaplacian:
-    r"""The operator :math:`Δ_{α,θ} f = -\mathrm{div}(R_θ D_α R_θ^\top ∇f)` of section 4 on one shape, for every angle θ.
+    r"""The operator :math:`Δ_{α,θ} f = -\mathrm{div}(R_θ D_α R_θ^\top ∇f)` of section 4 on one shape, for every
+    angle θ.
 
     shape : TriangleMesh or PointCloud, in its own length unit; nothing is rescaled.
     alpha : degree of anisotropy α ≥ 0; 0 is the isotropic Laplacian exactly (the cotangent formula on a mesh).
@@ -29,9 +30,10 @@ class AnisotropicLaplacian:
         "constant", eq. (10): 1 along u_M and 1/(1 + α) along u_m.
     frames : the shape's principal frames if they are known already, or frames of your own.
 
-    The discrete operator is S⁻¹W with `mass` S and `stiffness(theta)` W = W₀ + cos 2θ W_c + sin 2θ W_s: symmetric, positive
-    SEMI-definite, with constants in its kernel. θ is in radians, counter-clockwise about the outward normal from u_M; everything
-    has period π. Faces without area and vertices of no face take no part: their rows of W and S are zero.
+    The discrete operator is S⁻¹W with `mass` S and `stiffness(theta)` W = W₀ + cos 2θ W_c + sin 2θ W_s: symmetric,
+    positive SEMI-definite, with constants in its kernel. θ is in radians, counter-clockwise about the outward
+    normal from u_M; everything has period π. Faces without area and vertices of no face take no part: their rows of
+    W and S are zero.
 
     Raises GeometryError if the shape has no area, ParameterError if α or `conductivity` is out of range.
     """
@@ -49,7 +51,7 @@ class AnisotropicLaplacian:
         frames = principal_curvatures(shape) if frames is None else frames
         elements = Elements.of(shape, frames)
         if not len(elements.areas):
-            raise GeometryError(f"{shape!r} has no face with an area, so no heat can run on it. Check its coordinates.")
+            raise GeometryError(f"{shape!r} has no area, so no heat can run on it. Check its coordinates.")
         pattern = SparsityPattern.of(elements.corners, shape.vertex_count)
         mass = read_only(elements.masses(shape.vertex_count))
         self._settle(shape, float(alpha), conductivity, frames, elements, pattern, mass)
@@ -80,7 +82,7 @@ class AnisotropicLaplacian:
         return other
 
     def conductivities(self) -> tuple[FloatArray, FloatArray]:
-        """Conductivity of each element along and across the turned axis u_M, each (t,), from 0 (excluded) to 1, without unit."""
+        """Conductivity of each element along and across the turned axis u_M, each (t,), in (0, 1], without unit."""
         rows = self.elements.frames
         if self.conductivity == "constant":
             return np.ones(len(rows)), np.full(len(rows), 1 / (1 + self.alpha))
@@ -92,17 +94,17 @@ class AnisotropicLaplacian:
         """Entries (nnz,) of W(θ) on `pattern`."""
         finite("theta", theta)
         if self.alpha == 0:
-            return self._mean
-        return self._mean + np.cos(2 * theta) * self._cosine + np.sin(2 * theta) * self._sine
+            return self._mean.copy()
+        return np.asarray(self._mean + np.cos(2 * theta) * self._cosine + np.sin(2 * theta) * self._sine)
 
     def stiffness(self, theta: float = 0.0) -> csr_array:
         """Stiffness matrix W(θ) (n, n), without unit: symmetric, positive SEMI-definite, row sums zero; eq. (24).
 
         theta : radians, counter-clockwise about the outward normal from the direction of maximum curvature; period π.
         """
-        return self.pattern.matrix(self.stiffness_values(theta).copy())
+        return self.pattern.matrix(self.stiffness_values(theta))
 
     def weyl_eigenvalue(self, index: int) -> float:
-        """Weyl's estimate of the eigenvalue λ_index, 1/length²: 4π·index / Σ area/√(along·across), the same for every θ."""
+        """Weyl's estimate of λ_index, 1/length²: 4π·index / Σ area/√(along·across), the same for every θ."""
         along, across = self.conductivities()
         return float(4 * np.pi * index / np.sum(self.elements.weighted_areas / np.sqrt(along * across)))

@@ -15,7 +15,8 @@ class Elements:
     """Weighted triangles, each with a principal frame: what a mesh's faces and a cloud's fans have in common.
 
     corners : (t, 3) vertex indices, counter-clockwise about the normal.
-    areas : (t,), unit length², > 0. weights : (t,), 1 for a mesh, 1/3 for a cloud, where each triangle is counted about thrice.
+    areas : (t,), unit length², > 0. weights : (t,), 1 for a mesh, 1/3 for a cloud, where each triangle is counted
+        about thrice.
     along_max, along_min : (t, 3) parts along u_M and u_m of the edge opposite to each corner, unit length.
     frames : (t,) which row of the shape's principal frames each element uses.
     """
@@ -39,7 +40,8 @@ class Elements:
 
     def masses(self, vertex_count: int) -> FloatArray:
         """Lumped mass (n,): a third of the area of each adjacent element, unit length²."""
-        return np.bincount(self.corners.ravel(), np.repeat(self.weighted_areas / 3, 3), vertex_count)
+        share = np.repeat(self.weighted_areas / 3, 3)
+        return np.bincount(self.corners.ravel(), share, vertex_count).astype(np.float64)
 
 
 def directional_parts(
@@ -47,11 +49,11 @@ def directional_parts(
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
     r"""Element matrices W₀, W_c, W_s, each (t, 3, 3), with :math:`W(θ) = W_0 + \cos 2θ\, W_c + \sin 2θ\, W_s`.
 
-    W(θ) holds area · ∇φ_i · D(θ) ∇φ_j for D(θ) = along · t tᵀ + across · s sᵀ, where t is u_M turned by θ counter-clockwise about
-    the normal and s = n × t. along, across : (t,), without unit.
+    W(θ) holds area · ∇φ_i · D(θ) ∇φ_j for D(θ) = along · t tᵀ + across · s sᵀ, where t is u_M turned by θ
+    counter-clockwise about the normal and s = n × t. along, across : (t,), without unit.
     """
-    # A hat function's gradient is the opposite edge turned by 90°: ∇φ = (−q u_M + p u_m)/(2A) for an edge p u_M + q u_m.
-    # Eq. (24) writes D between the edges themselves, which taken literally exchanges `along` and `across`.
+    # A hat function's gradient is the opposite edge turned by 90°: ∇φ = (−q u_M + p u_m)/(2A) for an edge p u_M + q
+    # u_m. Eq. (24) writes D between the edges themselves, which taken literally exchanges `along` and `across`.
     x, y = -elements.along_min, elements.along_max
     xx, yy = x[:, :, None] * x[:, None, :], y[:, :, None] * y[:, None, :]
     xy = x[:, :, None] * y[:, None, :]

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.sparse import csr_array
 from scipy.sparse.linalg import splu
 
@@ -14,9 +15,11 @@ from .._check import FloatArray, IntArray, read_only
 
 @dataclass(frozen=True, eq=False)
 class SparsityPattern:
-    """Which vertices of which elements meet: one symmetric CSR pattern, diagonal included, for all angles and anisotropies.
+    """Which vertices of which elements meet: one symmetric CSR pattern, diagonal included, for all angles and
+    anisotropies.
 
-    Keeping one pattern by construction matters: adding sparse matrices would prune entries that happen to be zero at one angle.
+    Keeping one pattern by construction matters: adding sparse matrices would prune entries that happen to be zero
+    at one angle.
 
     indptr, indices : CSR row pointers (n + 1,) and sorted columns (nnz,).
     slots : (t, 3, 3) where the entry (i, j) of each element's matrix is summed up.
@@ -28,7 +31,7 @@ class SparsityPattern:
 
     @classmethod
     def of(cls, triangles: IntArray, vertex_count: int) -> SparsityPattern:
-        """The pattern of elements with the corners `triangles` (t, 3). Vertices of no element keep their diagonal entry."""
+        """The pattern of elements with the corners `triangles` (t, 3). Every vertex keeps its diagonal entry."""
         n = vertex_count
         keys = (triangles[:, :, None] * n + triangles[:, None, :]).ravel()
         entries, inverse = np.unique(np.concatenate([keys, np.arange(n) * (n + 1)]), return_inverse=True)
@@ -51,7 +54,7 @@ class SparsityPattern:
 
     def gather(self, element_matrices: FloatArray) -> FloatArray:
         """Sum element matrices (t, 3, 3) into values (nnz,)."""
-        return np.bincount(self.slots.ravel(), element_matrices.ravel(), len(self.indices))
+        return np.asarray(np.bincount(self.slots.ravel(), element_matrices.ravel(), len(self.indices)), np.float64)
 
     def matrix(self, values: FloatArray) -> csr_array:
         """The sparse matrix (n, n) with `values` (nnz,) on this pattern."""
@@ -69,19 +72,19 @@ class EliminationOrder:
     """A fill-reducing permutation of a pattern.
 
     order : (n,): the vertex eliminated k-th. position : (n,) its inverse.
-    indptr, indices, entries : the permuted pattern in CSC form, and which value (nnz,) of the original each of its entries is.
+    indptr, indices, entries : the permuted pattern in CSC form, and which value (nnz,) of the original each of its
+        entries is.
     """
 
     order: IntArray
     position: IntArray
-    indptr: IntArray
-    indices: IntArray
+    indptr: NDArray[np.int32]
+    indices: NDArray[np.int32]
     entries: IntArray
 
     @classmethod
     def of(cls, pattern: SparsityPattern) -> EliminationOrder:
         """Minimum degree, as SuperLU finds it."""
-        n = pattern.vertex_count
         values = np.full(len(pattern.indices), -1.0)
         values[pattern.diagonal] = np.diff(pattern.indptr) + 1.0
         position = splu(
@@ -94,11 +97,10 @@ class EliminationOrder:
         numbered = pattern.matrix(np.arange(1.0, len(pattern.indices) + 1))
         permuted = numbered[order][:, order].tocsc()
         permuted.sort_indices()
-        assert permuted.shape == (n, n)
         return cls(
             order=read_only(order),
             position=read_only(position),
-            indptr=read_only(permuted.indptr),
-            indices=read_only(permuted.indices),
+            indptr=read_only(permuted.indptr.astype(np.int32)),
+            indices=read_only(permuted.indices.astype(np.int32)),
             entries=read_only(permuted.data.astype(np.int64) - 1),
         )

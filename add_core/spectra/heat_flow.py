@@ -11,26 +11,28 @@ from scipy.sparse import csc_array
 from scipy.sparse.csgraph import connected_components
 from scipy.sparse.linalg import SuperLU, splu
 
-from .._check import BoolArray, FloatArray, IntArray, finite, positive, positive_array, vertex_index
+from .._check import BoolArray, FloatArray, finite, positive, positive_array, vertex_index
 from ..errors import ParameterError
 from ..operators import AnisotropicLaplacian
 from .krylov import KrylovBasis
 
 TOLERANCE = 1e-6
-"""Relative accuracy of a kernel in the mass-weighted norm, and of the heat left at its source, unless told otherwise."""
+"""Relative accuracy of a kernel in the mass-weighted norm, and of the heat left at its source, by default."""
 _FACTOR_BYTES = 256 * 2**20
 _BYTES_PER_ENTRY = 12
 
 
 class HeatFlow:
-    r"""Anisotropic heat kernels :math:`h_{α,θ,t}(x, ·)`, eq. (17), of one operator, for any source x, angle θ and time t.
+    r"""Anisotropic heat kernels :math:`h_{α,θ,t}(x, ·)`, eq. (17), of one operator, for any source x, angle θ and
+    time t.
 
-    The kernel's column is projected on a Krylov space of (S + γW)⁻¹S with γ a fraction of t: some fifteen vectors reach
-    `TOLERANCE` where an expansion in 300 eigenfunctions errs by half at small t. A factorisation is kept while θ and the
-    decade of t stay, and a basis while the source stays too, so that another time costs next to nothing.
+    The kernel's column is projected on a Krylov space of (S + γW)⁻¹S with γ a fraction of t: some fifteen vectors
+    reach `TOLERANCE` where an expansion in 300 eigenfunctions errs by half at small t. A factorisation is kept
+    while θ and the decade of t stay, and a basis while the source stays too, so that another time costs next to
+    nothing.
 
-    What is spread evenly over a connected piece is split off first: its share is known exactly, so heat is conserved to
-    rounding. Not safe to call from two threads at once.
+    What is spread evenly over a connected piece is split off first: its share is known exactly, so heat is
+    conserved to rounding. Not safe to call from two threads at once.
     """
 
     def __init__(self, laplacian: AnisotropicLaplacian, *, tolerance: float = TOLERANCE) -> None:

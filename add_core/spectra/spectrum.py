@@ -17,7 +17,8 @@ from ..operators import AnisotropicLaplacian
 class Spectrum:
     """The K lowest solutions of W φ = λ S φ.
 
-    eigenvalues : (K,), ascending, ≥ 0, 1/length². eigenfunctions : (n, K), 1/length, φᵀ S φ = I; zero at vertices without mass.
+    eigenvalues : (K,), ascending, ≥ 0, 1/length². eigenfunctions : (n, K), 1/length, φᵀ S φ = I; zero at vertices
+        without mass.
     mass : (n,), the diagonal of S, length².
     """
 
