@@ -13,7 +13,8 @@ LIGHT_PARTS = ["add_core", "add_core.geometry", "add_core.operators", "add_core.
 def loaded_by(statement: str) -> set[str]:
     """Top-level names of the modules that a fresh interpreter holds after `statement`."""
     script = f"{statement}\nimport sys; print(*{{name.partition('.')[0] for name in sys.modules}})"
-    run = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True, timeout=120)
+    run = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=120)
+    assert run.returncode == 0, run.stderr
     return set(run.stdout.split())
 
 

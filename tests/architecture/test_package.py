@@ -27,9 +27,11 @@ def run(installed: Path, script: str) -> str:
     """What `script` prints when the wheel, and not the checkout, is what `import` finds."""
     environment = os.environ | {"PYTHONPATH": str(installed)}
     command = [sys.executable, "-c", script]
-    return subprocess.run(
-        command, cwd=installed.parent, env=environment, check=True, capture_output=True, text=True, timeout=120
-    ).stdout.strip()
+    process = subprocess.run(
+        command, cwd=installed.parent, env=environment, capture_output=True, text=True, timeout=120
+    )
+    assert process.returncode == 0, process.stderr
+    return process.stdout.strip()
 
 
 def test_the_wheel_holds_the_two_packages_and_their_licence(installed):
