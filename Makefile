@@ -19,7 +19,7 @@ else
 endif
 
 test: check virtual-screen ## set everything up, check and test
-	@.ci/with-screen .venv/bin/python -m pytest -n 2
+	@.ci/with-screen .venv/bin/python -m pytest -n 2 --dist worksteal
 
 check: .venv/installed ## lint, format, types, import directions
 	@.venv/bin/ruff check .
