@@ -29,7 +29,8 @@ def heat_kernel_times(spectrum: Spectrum, count: int = 100) -> FloatArray:
     """
     count = count_in("count", count, 1, 1_000_000)
     highest = spectrum.eigenvalues[-1]
-    moving = spectrum.eigenvalues[spectrum.eigenvalues > 1e-8 * highest]
+    rounding = max(1e-8 * highest, 1e-10 * 4 * np.pi / spectrum.mass.sum())
+    moving = spectrum.eigenvalues[spectrum.eigenvalues > rounding]
     if not len(moving):
         raise ParameterError("spectrum must hold a non-zero eigenvalue to take times from. Compute more of them.")
     return np.asarray(4 * np.log(10) / np.geomspace(highest, moving[0], count))

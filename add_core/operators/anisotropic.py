@@ -48,7 +48,7 @@ class AnisotropicLaplacian:
     ) -> None:
         at_least_zero("alpha", alpha)
         one_of("conductivity", conductivity, get_args(Conductivity))
-        frames = principal_curvatures(shape) if frames is None else frames
+        frames = principal_curvatures(shape) if frames is None else _frames_of(shape, frames)
         elements = Elements.of(shape, frames)
         if not len(elements.areas):
             raise GeometryError(f"{shape!r} has no area, so no heat can run on it. Check its coordinates.")
@@ -108,3 +108,14 @@ class AnisotropicLaplacian:
         """Weyl's estimate of λ_index, 1/length²: 4π·index / Σ area/√(along·across), the same for every θ."""
         along, across = self.conductivities()
         return float(4 * np.pi * index / np.sum(self.elements.weighted_areas / np.sqrt(along * across)))
+
+
+def _frames_of(shape: TriangleMesh | PointCloud, frames: PrincipalFrames) -> PrincipalFrames:
+    rows = len(shape.faces) if isinstance(shape, TriangleMesh) else shape.vertex_count
+    if len(frames.normals) != rows:
+        what = "faces" if isinstance(shape, TriangleMesh) else "points"
+        raise GeometryError(
+            f"frames must have one row for each of the {rows} {what}, but they have {len(frames.normals)}. "
+            "Are they another shape's?"
+        )
+    return frames
