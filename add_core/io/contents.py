@@ -6,6 +6,7 @@ import logging
 from dataclasses import dataclass, field
 
 import numpy as np
+from numpy.typing import NDArray
 
 from .._check import FloatArray, IntArray
 from ..errors import ShapeFileError
@@ -37,6 +38,16 @@ class FileContents:
         if self.faces is not None and len(self.faces):
             return TriangleMesh(self.vertices, self.faces, name=name)
         return PointCloud(self.vertices, self.normals, name=name)
+
+
+def indices(values: NDArray[np.number]) -> IntArray:
+    """`values` as int64. Raises ShapeFileError if one is no whole number, or too large to count anything."""
+    if values.dtype.kind == "f" and not (np.isfinite(values).all() and (np.abs(values) < 2**53).all()):
+        raise ShapeFileError("has vertex numbers that are not finite.")
+    whole = values.astype(np.int64)
+    if (whole != values).any():
+        raise ShapeFileError("has vertex numbers that are not whole.")
+    return whole
 
 
 def fan_triangles(corners: IntArray, counts: IntArray) -> IntArray:

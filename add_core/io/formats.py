@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from ..errors import ShapeFileError
-from . import gltf, npz, obj, off, ply, stl, vtk_data, xyz
+from . import gltf, npz, obj, off, ply, stl, vtk_legacy, vtk_writing, vtk_xml, xyz
 from .contents import Fields, FileContents, Shape
 
 
@@ -35,8 +35,8 @@ FORMATS: dict[str, Format] = {
     ".obj": Format("OBJ", _whole(obj.read), obj.write, ("OBJ",)),
     ".ply": Format("PLY", _whole(ply.read), ply.write, ("PLY",), holds_fields=True),
     ".stl": Format("STL", _whole(stl.read), stl.write, ("STL",)),
-    ".vtp": Format("VTP", _whole(vtk_data.read_xml), vtk_data.write_xml, ("VTP",), holds_fields=True),
-    ".vtk": Format("VTK", _whole(vtk_data.read_legacy), vtk_data.write_legacy, ("VTK",), holds_fields=True),
+    ".vtp": Format("VTP", _whole(vtk_xml.read), vtk_writing.write_xml, ("VTP",), holds_fields=True),
+    ".vtk": Format("VTK", _whole(vtk_legacy.read), vtk_writing.write_legacy, ("VTK",), holds_fields=True),
     ".glb": Format("GLB", gltf.read, gltf.write, ("GLB", "glTF")),
     ".gltf": Format("glTF", gltf.read, None, ("glTF", "GLB")),
     ".xyz": Format("XYZ", _whole(xyz.read), xyz.write, ("XYZ",)),

@@ -17,15 +17,17 @@ from ..geometry import TriangleMesh
 from .contents import Fields, FileContents, Shape
 
 _UNREADABLE = (
-    ValueError,
-    KeyError,
-    IndexError,
-    TypeError,
+    ArithmeticError,
+    AssertionError,
     AttributeError,
+    LookupError,
+    MemoryError,
+    NameError,
     NotImplementedError,
     OSError,
-    MemoryError,
     RecursionError,
+    TypeError,
+    ValueError,
 )
 """What trimesh and its imports raise on files that are not what they claim."""
 

@@ -11,7 +11,7 @@ import numpy as np
 
 from ..errors import ShapeFileError
 from ..geometry import PointCloud
-from .contents import Fields, FileContents, Shape, fan_triangles
+from .contents import Fields, FileContents, Shape, fan_triangles, indices
 from .ply_header import PlyElement, read_header
 from .ply_rows import BinaryRows, Column, TextRows
 
@@ -79,11 +79,9 @@ def _triangles(elements: tuple[PlyElement, ...], table: dict[str, Column] | None
     for name in _CORNERS:
         if name in table:
             corners = table[name]
-            if corners.values.dtype.kind == "f" and (corners.values % 1 != 0).any():
-                raise ShapeFileError("has faces with corners that are not whole numbers.")
             if corners.counts is None:
                 raise ShapeFileError(f"has faces whose {name} is no list.")
-            return fan_triangles(corners.values.astype(np.int64), corners.counts)
+            return fan_triangles(indices(corners.values), corners.counts)
     raise ShapeFileError(f"has faces without the list {_CORNERS[0]}.")
 
 
