@@ -89,7 +89,7 @@ def test_answers_do_not_depend_on_what_was_asked_before(laplacian, modes):
 def test_heat_stays_on_its_piece():
     ball = sphere(2)
     n = ball.vertex_count
-    two = TriangleMesh(np.vstack([ball.vertices, ball.vertices + [5, 0, 0]]), np.vstack([ball.faces, ball.faces + n]))
+    two = TriangleMesh(np.vstack((ball.vertices, ball.vertices + 5)), np.vstack([ball.faces, ball.faces + n]))
     kernel = HeatFlow(AnisotropicLaplacian(two, alpha=1.0)).kernel(n + 1, theta=0.0, time=1e3)
     assert not kernel[:n].any()
     assert_allclose(kernel[n:], 1 / AnisotropicLaplacian(ball).mass.sum(), rtol=1e-9)
