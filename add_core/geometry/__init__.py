@@ -4,19 +4,26 @@ from .cloud import PointCloud
 from .diameter import geodesic_diameter
 from .frames import PrincipalFrames, principal_curvatures
 from .geodesics import geodesic_distances
+from .inspection import Defect, ShapeReport, inspect
 from .mesh import TriangleMesh
+from .repair import Repair, repair
 from .sampling import Subsample, farthest_points, subsample
 from .scale import normalize
 
 __all__ = [
+    "Defect",
     "PointCloud",
     "PrincipalFrames",
+    "Repair",
+    "ShapeReport",
     "Subsample",
     "TriangleMesh",
     "farthest_points",
     "geodesic_diameter",
     "geodesic_distances",
+    "inspect",
     "normalize",
     "principal_curvatures",
+    "repair",
     "subsample",
 ]
