@@ -1,0 +1,5 @@
+"""`python -m add_core.cli`, where the entry point is not installed."""
+
+from .application import main
+
+main()
