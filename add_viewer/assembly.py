@@ -1,0 +1,141 @@
+"""The parts of the running app, wired to each other."""
+
+from __future__ import annotations
+
+import logging
+import os
+import sys
+from pathlib import Path
+
+os.environ.setdefault("QT_API", "pyside6")
+
+from PySide6.QtCore import QSettings, QTimer
+from PySide6.QtWidgets import QApplication
+
+from .controllers.curves import CurvesController
+from .controllers.directions import DirectionsController
+from .controllers.exporting import curves_table, write_atomically
+from .controllers.kernel import KernelController
+from .controllers.opening import SHIPPED, OpeningController
+from .controllers.operators import OperatorStore
+from .controllers.running import explain
+from .models.display import Display
+from .models.results import Results
+from .models.session import Session
+from .models.shapes import OpenShape
+from .tasks.delay import Delay
+from .tasks.worker import Worker
+from .views.main_window import MainWindow
+from .views.saving import Saving, save_image
+from .views.settings import Settings
+from .views.start_page import Gallery
+
+CURVE_PAUSE = 180
+"""Milliseconds without a change before curves are computed: a kernel that the person waits for comes first."""
+
+_TITLES = {"humans": "People", "poses": "Poses", "dogs": "Dogs"}
+
+
+class Assembly:
+    """Models, controllers, tasks and the window."""
+
+    def __init__(
+        self,
+        files: list[str],
+        screenshot: Path | None = None,
+        *,
+        size: tuple[int, int] | None = None,
+        theme: str | None = None,
+        pick: list[int] | None = None,
+        store: QSettings | None = None,
+    ) -> None:
+        self.app = QApplication.instance() or QApplication(["add-viewer"])
+        self._files, self._screenshot, self._picks = files, screenshot, pick or []
+        self._failures: list[str] = []
+        self.session, self.results, self.display = Session(), Results(), Display()
+        self.worker, self._curve_delay = Worker(), Delay(CURVE_PAUSE)
+        if screenshot is not None and store is None:  # a picture must not depend on what somebody set up earlier
+            store = QSettings(os.devnull, QSettings.Format.IniFormat)
+        self.window = MainWindow(self.session, self.results, self.display, Settings(store), _galleries())
+        self._control()
+        if theme is not None:
+            self.display.set("theme", theme)
+        if size is not None:
+            self.window.resize(*size)
+
+    def _control(self) -> None:
+        run, operators = self.worker.submit, OperatorStore()
+        self.opening = OpeningController(self.session, self.results, run)
+        self.opening.opened, self.opening.failed = self._opened, self._failed
+        self.kernel = KernelController(self.session, self.results, run, operators)
+        self.directions = DirectionsController(self.session, self.results, self.display, run, operators)
+        self.curves = CurvesController(self.session, self.results, run, self._curve_delay, operators)
+        self.window.open_requested.connect(self.opening.open)
+        self.saving = Saving(self.window, write_atomically, curves_table, explain)
+
+    def _opened(self, shape: OpenShape) -> None:
+        self.window.remember(shape.reference)
+        for vertex in self._picks:
+            self.session.pick(vertex, add=True)
+        self._picks = []
+
+    def _failed(self, reference: str, reason: str) -> None:
+        self._failures.append(f"{reference}: {reason}" if reference not in reason else reason)
+
+    # -- running ------------------------------------------------------------------------------------------------------
+
+    def run(self) -> int:
+        """Show the window until it is closed, or save a picture of it and end."""
+        logging.basicConfig(level=logging.WARNING, format="%(name)s: %(message)s")
+        self.window.show()
+        for reference in self._files:
+            self.opening.open(reference)
+        if self._screenshot is not None:
+            self._watch = QTimer(interval=50)
+            self._watch.timeout.connect(self._take_screenshot)
+            self._watch.start()
+        status = self.app.exec()
+        self.stop()
+        return status
+
+    def stop(self) -> None:
+        """End the thread and close the window."""
+        self._curve_delay.cancel()
+        self.worker.stop()
+        self.window.close()
+
+    def _take_screenshot(self) -> None:
+        if self._failures:
+            self._leave(2, self._failures[0])
+        elif self._settled():
+            self._watch.stop()
+            QTimer.singleShot(100, self._save_screenshot)  # one more paint
+
+    def _settled(self) -> bool:
+        if self.results.busy or len(self.session.state.shapes) < len(set(self._files)):
+            return False
+        picks = self.session.state.active_picks
+        if not picks:
+            return True
+        curves = self.results.curves
+        return self.results.kernel is not None and len(curves) == len(picks) and all(c.is_complete for c in curves)
+
+    def _save_screenshot(self) -> None:
+        assert self._screenshot is not None
+        image = self.window.grab().toImage()
+        try:
+            write_atomically(self._screenshot, lambda temporary: save_image(image, temporary))
+        except OSError as error:
+            self._leave(2, f"{self._screenshot}: {explain(error)}")
+        else:
+            self._leave(0)
+
+    def _leave(self, status: int, problem: str = "") -> None:
+        self._watch.stop()
+        if problem:
+            sys.stderr.write(f"add-viewer: {' '.join(problem.split())}\n")
+        self.app.exit(status)
+
+
+def _galleries() -> tuple[Gallery, ...]:
+    return tuple(Gallery(name, _TITLES[name], collection().names) for name, collection in SHIPPED.items())

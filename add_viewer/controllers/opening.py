@@ -1,0 +1,106 @@
+"""Opening shapes: from files and from the shipped collections."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+
+from add_core.errors import ShapeFileError
+from add_core.geometry import normalize
+from add_core.io import Collection, dogs, humans, load_shape, poses
+
+from ..models.results import Results
+from ..models.session import Session
+from ..models.shapes import OpenShape, Shape
+from .running import Run, explain
+
+SHIPPED: dict[str, Callable[[], Collection]] = {"humans": humans, "poses": poses, "dogs": dogs}
+_SHIPPED_NAME = re.compile(r"(humans|poses|dogs)/(\d+)")
+
+
+class OpeningController:
+    """Reads shapes off the window's thread; one that cannot be read leaves the session as it was."""
+
+    def __init__(self, session: Session, results: Results, run: Run) -> None:
+        self._session, self._results, self._run = session, results, run
+        self._waiting = 0
+        self.opened: Callable[[OpenShape], None] = lambda shape: None
+        self.failed: Callable[[str, str], None] = lambda reference, reason: None
+
+    def open(self, reference: str | Path) -> None:
+        """Open a path or a shipped name such as "humans/0"."""
+        name = str(reference)
+        self._waiting += 1
+        self._results.set_busy(f"Opening {Path(name).name if '/' in name and Path(name).exists() else name} …")
+        self._run(
+            "open",
+            lambda: read_shape(name),
+            done=self._done,
+            failed=lambda error: self._failed(name, error),
+            queue=True,
+        )
+
+    def _done(self, shape: OpenShape) -> None:
+        self._finish()
+        self._session.add_shape(shape)
+        self.opened(shape)
+
+    def _failed(self, reference: str, error: BaseException) -> None:
+        self._finish()
+        reason = explain(error)
+        self._results.report(reason)
+        self.failed(reference, reason)
+
+    def _finish(self) -> None:
+        self._waiting -= 1
+        if self._waiting == 0:
+            self._results.set_busy("")
+
+
+def read_shape(reference: str) -> OpenShape:
+    """Read a path or a shipped name and scale the shape to unit geodesic diameter.
+
+    Raises ShapeFileError or GeometryError, worded for the person who asked.
+    """
+    shipped = _SHIPPED_NAME.fullmatch(reference)
+    if shipped and not Path(reference).exists():
+        return _read_shipped(reference, shipped[1], int(shipped[2]))
+    path = Path(reference).expanduser()
+    shape = load_shape(path)
+    key = str(path.resolve())
+    return _open_shape(shape, key=key, reference=key, name=shape.name or path.stem)
+
+
+def _read_shipped(reference: str, collection_name: str, index: int) -> OpenShape:
+    collection = SHIPPED[collection_name]()
+    if index >= len(collection):
+        raise ShapeFileError(
+            f"{collection_name} holds shapes {collection_name}/0 to {collection_name}/{len(collection) - 1}, "
+            f"but {reference} was asked for."
+        )
+    opened = _open_shape(
+        collection[index],
+        key=reference,
+        reference=reference,
+        name=_capital(collection.names[index]),
+    )
+    return replace(opened, unit=collection.unit, symmetry=collection.symmetry, up=collection.up, front=collection.front)
+
+
+def _open_shape(shape: Shape, *, key: str, reference: str, name: str) -> OpenShape:
+    scaled = normalize(shape)
+    return OpenShape(key=key, reference=reference, name=name, shape=scaled, diameter=_ratio(shape, scaled))
+
+
+def _ratio(shape: Shape, scaled: Shape) -> float:
+    extents = (float(np.linalg.norm(np.ptp(each.vertices, axis=0))) for each in (shape, scaled))
+    before, after = extents
+    return before / after if after > 0 else 1.0
+
+
+def _capital(name: str) -> str:
+    return name[:1].upper() + name[1:]

@@ -1,0 +1,70 @@
+"""Operators that stay at hand: building one takes tenths of a second, turning or weighing it milliseconds."""
+
+from __future__ import annotations
+
+from collections import OrderedDict
+from typing import Generic, TypeVar
+
+from add_core.operators import AnisotropicLaplacian
+from add_core.spectra import HeatFlow
+
+from ..models.shapes import OpenShape
+
+_Value = TypeVar("_Value")
+
+
+class OperatorStore:
+    """The latest operators and heat flows of the open shapes. Belongs to the thread that computes."""
+
+    def __init__(self) -> None:
+        self._bases: _Latest[AnisotropicLaplacian] = _Latest(4)
+        self._operators: _Latest[AnisotropicLaplacian] = _Latest(6)
+        self._flows: _Latest[HeatFlow] = _Latest(4)
+
+    def laplacian(self, shape: OpenShape, conductivity: str, alpha: float) -> AnisotropicLaplacian:
+        """The operator of `shape`; frames and sparsity are shared between all α."""
+        key = (id(shape), conductivity, alpha)
+        found = self._operators.get(key)
+        if found is None:
+            found = self._operators.put(key, self._base(shape, conductivity).with_alpha(alpha))
+        return found
+
+    def flow(self, shape: OpenShape, conductivity: str, alpha: float, purpose: str) -> HeatFlow:
+        """A heat flow that keeps its factorisation; each `purpose` has its own, so that none evicts another's."""
+        key = (id(shape), conductivity, alpha, purpose)
+        found = self._flows.get(key)
+        if found is None:
+            found = self._flows.put(key, HeatFlow(self.laplacian(shape, conductivity, alpha)))
+        return found
+
+    def _base(self, shape: OpenShape, conductivity: str) -> AnisotropicLaplacian:
+        key = (id(shape), conductivity)
+        found = self._bases.get(key)
+        if found is None:
+            other = next((base for base in self._bases.values() if base.shape is shape.shape), None)
+            frames = other.frames if other is not None else None
+            built = AnisotropicLaplacian(shape.shape, alpha=0.0, conductivity=conductivity, frames=frames)
+            found = self._bases.put(key, built)
+        return found
+
+
+class _Latest(Generic[_Value]):
+    """A dictionary of the last few values used."""
+
+    def __init__(self, size: int) -> None:
+        self._size = size
+        self._kept: OrderedDict[tuple[object, ...], _Value] = OrderedDict()
+
+    def get(self, key: tuple[object, ...]) -> _Value | None:
+        if key in self._kept:
+            self._kept.move_to_end(key)
+        return self._kept.get(key)
+
+    def put(self, key: tuple[object, ...], value: _Value) -> _Value:
+        self._kept[key] = value
+        if len(self._kept) > self._size:
+            self._kept.popitem(last=False)
+        return value
+
+    def values(self) -> list[_Value]:
+        return list(self._kept.values())

@@ -1,0 +1,37 @@
+"""Reading values off computed curves at any time and angle, without computing them anew."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from .results import AutodiffusionCurves, FloatArray
+
+
+def over_theta(curves: AutodiffusionCurves, reach: float) -> FloatArray:
+    """(L,) h(x, x) at t·λ₁ = `reach` for every computed angle, interpolated between times (log in both)."""
+    position = np.log(np.clip(reach, curves.reaches[0], curves.reaches[-1]))
+    at = np.log(curves.reaches)
+    upper = int(np.clip(np.searchsorted(at, position), 1, len(at) - 1))
+    share = (position - at[upper - 1]) / (at[upper] - at[upper - 1])
+    values: FloatArray = np.exp(
+        (1 - share) * np.log(curves.values[:, upper - 1]) + share * np.log(curves.values[:, upper])
+    )
+    return values
+
+
+def over_time(curves: AutodiffusionCurves, theta: float) -> FloatArray:
+    """(T,) h(x, x) at angle `theta` for every time, interpolated between the computed angles (period π)."""
+    thetas = np.concatenate([curves.thetas, curves.thetas[:1] + np.pi])
+    values = np.vstack([curves.values, curves.values[:1]])
+    angle = theta % np.pi
+    angle += np.pi if angle < thetas[0] else 0.0
+    upper = int(np.clip(np.searchsorted(thetas, angle), 1, len(thetas) - 1))
+    gap = thetas[upper] - thetas[upper - 1]
+    share = (angle - thetas[upper - 1]) / gap if gap > 0 else 0.0
+    row: FloatArray = (1 - share) * values[upper - 1] + share * values[upper]
+    return row
+
+
+def once_around(curves: AutodiffusionCurves, values: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Angles from θ₀ to θ₀ + π and `values` (L,) over them, closed: the first value comes again at the end."""
+    return np.append(curves.thetas, curves.thetas[0] + np.pi), np.append(values, values[0])

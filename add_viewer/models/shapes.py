@@ -1,0 +1,53 @@
+"""An open shape: the geometry as it is computed with, and what is known about where it came from."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from add_core.geometry import PointCloud, TriangleMesh
+
+Shape = TriangleMesh | PointCloud
+IntArray = NDArray[np.int64]
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class OpenShape:
+    """One shape of the session. Two are equal only if they are the same object.
+
+    key : unique in the session.
+    reference : what reopens it, a path or a shipped name such as "humans/0".
+    shape : scaled to unit geodesic diameter, so that α and t compare between shapes.
+    diameter : geodesic diameter in the file's own unit: own length = diameter × shown length.
+    unit : the file's own length unit, "" if unknown.
+    symmetry : (n,) the mirror of every vertex, or None.
+    up, front : axes such as "+z" and "-y"; "" if unknown.
+    """
+
+    key: str
+    reference: str
+    name: str
+    shape: Shape
+    diameter: float
+    unit: str = ""
+    symmetry: IntArray | None = None
+    up: str = ""
+    front: str = ""
+
+    @property
+    def vertex_count(self) -> int:
+        return self.shape.vertex_count
+
+    def mirror(self, vertex: int) -> int | None:
+        """The mirror image of `vertex`; None if unknown or `vertex` lies on the mirror plane."""
+        if self.symmetry is None or int(self.symmetry[vertex]) == vertex:
+            return None
+        return int(self.symmetry[vertex])
+
+    @property
+    def scale_sentence(self) -> str:
+        """What 1 means where lengths are shown."""
+        own = f" = {self.diameter:.3g} {self.unit}" if self.unit else ""
+        return f"Lengths in geodesic diameters (1 ⌀{own})"

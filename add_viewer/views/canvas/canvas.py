@@ -1,0 +1,273 @@
+"""The view that a person works in: orbit, hover, click."""
+
+from __future__ import annotations
+
+import numpy as np
+import pyvista as pv
+from numpy.typing import NDArray
+from PySide6.QtCore import QEvent, QPoint, QPointF, Qt, Signal
+from PySide6.QtGui import QImage, QMouseEvent, QResizeEvent, QWheelEvent
+from PySide6.QtWidgets import QApplication
+
+from ...models.picks import Pick
+from ...models.results import DirectionField
+from ...models.shapes import OpenShape, Shape
+from ..theme import LIGHT, Theme
+from .camera import VIEW_ANGLE, OrbitCamera
+from .marks import Needles, marker_actors
+from .picker import POINT_REACH, CloudPicker
+from .surface import Surface
+from .view3d import View3D
+
+FloatArray = NDArray[np.float64]
+
+VIEWS = {"front": (0.0, 0.0), "back": (180.0, 0.0), "left": (90.0, 0.0), "right": (-90.0, 0.0), "top": (0.0, 89.0)}
+
+
+class Canvas(View3D):
+    """One shape, its field, its markers. Emits what a person does; draws what it is told.
+
+    vertex_hovered : the vertex under the cursor or -1. vertex_clicked : vertex (-1 beside the shape) and keyboard modifiers.
+    menu_requested : global place and vertex or -1. camera_moved : the picture's axes turned.
+    """
+
+    vertex_hovered = Signal(int)
+    vertex_clicked = Signal(int, object)
+    menu_requested = Signal(QPoint, int)
+    camera_moved = Signal()
+    painted = Signal()
+
+    def __init__(self, parent: object = None) -> None:
+        super().__init__(parent)
+        self.camera_model = OrbitCamera()
+        self._body: Surface | None = None
+        self._needles: Needles | None = None
+        self._marks: list[pv.Actor] = []
+        self._pressed: QPointF | None = None
+        self._last = QPointF()
+        self._dragging = False
+        self._fitted = True
+        self._hovered = -1
+        _add_lights(self)
+        self.show_theme(LIGHT)
+
+    # -- what is shown ------------------------------------------------------------------------------------------------
+
+    def show_shape(self, opened: OpenShape | None, up: str, front: str) -> None:
+        """Replace the shape; the camera looks it in the face."""
+        self.show_directions(None)
+        self._remove(self._marks)
+        self._marks = []
+        if self._body is not None:
+            self._remove([self._body.actor])
+        self._body = None if opened is None else Surface(opened.shape)
+        if self._body is not None:
+            self.renderer.AddActor(self._body.actor)
+            self.camera_model.orient(up, front)
+            self.look("front")
+        self.update()
+
+    def show_field(self, position: FloatArray | None) -> None:
+        """Colour the shape by `position` (n,) in [0, 1]; None is bare skin."""
+        if self._body is not None:
+            self._body.show_field(position)
+            self.update()
+
+    def show_picks(self, picks: tuple[Pick, ...]) -> None:
+        """Mark the picked points."""
+        self._remove(self._marks)
+        shape = self.shown
+        self._marks = [] if shape is None else marker_actors(picks, shape.vertices, _normals(shape))
+        for actor in self._marks:
+            self.renderer.AddActor(actor)
+        self.update()
+
+    def show_directions(self, field: DirectionField | None) -> None:
+        """Draw the direction field, or take it away."""
+        if self._needles is not None:
+            self._remove([self._needles.actor])
+        self._needles = None if field is None else Needles(field)
+        if self._needles is not None:
+            self.renderer.AddActor(self._needles.actor)
+        self.update()
+
+    def turn_directions(self, theta: float) -> None:
+        """Turn the direction field to `theta`."""
+        if self._needles is not None:
+            self._needles.turn(theta)
+            self.update()
+
+    def show_wireframe(self, on: bool) -> None:
+        """Draw the triangles' edges."""
+        if self._body is not None:
+            self._body.show_wireframe(on)
+            self.update()
+
+    def show_theme(self, theme: Theme) -> None:
+        """Soft background, a little lighter at the top."""
+        self.set_background(theme.canvas_bottom, top=theme.canvas_top)
+        self.update()
+
+    @property
+    def shown(self) -> Shape | None:
+        return None if self._body is None else self._body.shape
+
+    # -- camera -------------------------------------------------------------------------------------------------------
+
+    def look(self, view: str) -> None:
+        """Look from "front", "back", "left", "right" (the shape's own left and right) or "top", the whole shape in view."""
+        self.camera_model.azimuth, self.camera_model.elevation = VIEWS[view]
+        self.fit()
+
+    def fit(self) -> None:
+        """Move so that the whole shape is in view, from the same side."""
+        if self.shown is not None:
+            self.camera_model.fit(self.shown.vertices, self.width() / max(self.height(), 1))
+        self._fitted = True
+        self._place_camera()
+
+    def _place_camera(self) -> None:
+        model, camera = self.camera_model, self.renderer.GetActiveCamera()
+        camera.SetViewAngle(VIEW_ANGLE)
+        camera.SetFocalPoint(model.focal)
+        camera.SetPosition(model.focal + model.distance * model.direction)
+        camera.SetViewUp(model.axes[1])
+        self.renderer.ResetCameraClippingRange()
+        self.camera_moved.emit()
+        self.update()
+
+    # -- picking ------------------------------------------------------------------------------------------------------
+
+    def vertex_at(self, place: QPointF) -> int:
+        """The vertex under `place` (device-independent pixels of this widget), -1 beside the shape."""
+        if self._body is None:
+            return -1
+        ratio = self.devicePixelRatioF()
+        x, y = ratio * place.x(), ratio * (self.height() - place.y())
+        picker = self._body.picker
+        if isinstance(picker, CloudPicker):
+            found = picker.vertex_near(self._to_screen(), x, y, ratio * POINT_REACH)
+        else:
+            found = picker.vertex_at(self._to_world(x, y, 0.0), self._to_world(x, y, 1.0))
+        return -1 if found is None else found
+
+    def place_of(self, vertex: int) -> QPointF:
+        """Where `vertex` is drawn, in device-independent pixels of this widget."""
+        assert self.shown is not None
+        self.renderer.SetWorldPoint(*self.shown.vertices[vertex], 1.0)
+        self.renderer.WorldToDisplay()
+        x, y, _ = self.renderer.GetDisplayPoint()
+        ratio = self.devicePixelRatioF()
+        return QPointF(x / ratio, self.height() - y / ratio)
+
+    def _to_world(self, x: float, y: float, depth: float) -> FloatArray:
+        self.renderer.SetDisplayPoint(x, y, depth)
+        self.renderer.DisplayToWorld()
+        point = np.array(self.renderer.GetWorldPoint())
+        return point[:3] / point[3]
+
+    def _to_screen(self) -> FloatArray:
+        width, height = self.render_window.GetSize()
+        matrix = self.renderer.GetActiveCamera().GetCompositeProjectionTransformMatrix(width / height, 0.0, 1.0)
+        project = np.array([[matrix.GetElement(i, j) for j in range(4)] for i in range(4)])
+        window = np.array([[width / 2, 0, 0, width / 2], [0, height / 2, 0, height / 2], [0, 0, 1, 0], [0, 0, 0, 1]])
+        return window @ project
+
+    # -- mouse --------------------------------------------------------------------------------------------------------
+
+    def mousePressEvent(self, event: QMouseEvent) -> None:
+        self._pressed = self._last = event.position()
+        self._dragging = False
+        self.setFocus(Qt.FocusReason.MouseFocusReason)
+
+    def mouseMoveEvent(self, event: QMouseEvent) -> None:
+        if self._pressed is None:
+            self._hover(self.vertex_at(event.position()))
+            return
+        moved = event.position() - self._pressed
+        if self._dragging or moved.manhattanLength() >= QApplication.startDragDistance() / 2:
+            self._dragging = True
+            self._drag(event)
+            self._last = event.position()
+
+    def mouseReleaseEvent(self, event: QMouseEvent) -> None:
+        was_click = self._pressed is not None and not self._dragging
+        self._pressed = None
+        self._dragging = False
+        if was_click and event.button() == Qt.MouseButton.LeftButton:
+            self.vertex_clicked.emit(self.vertex_at(event.position()), event.modifiers())
+        elif was_click and event.button() == Qt.MouseButton.RightButton:
+            self.menu_requested.emit(event.globalPosition().toPoint(), self.vertex_at(event.position()))
+
+    def mouseDoubleClickEvent(self, event: QMouseEvent) -> None:
+        self.mousePressEvent(event)
+
+    def wheelEvent(self, event: QWheelEvent) -> None:
+        notches = event.angleDelta().y() / 120.0
+        x, y = self._from_centre(event.position())
+        self.camera_model.zoom(1.15**notches, x, y)
+        self._fitted = False
+        self._place_camera()
+
+    def leaveEvent(self, event: QEvent) -> None:
+        self._hover(-1)
+        super().leaveEvent(event)
+
+    def _drag(self, event: QMouseEvent) -> None:
+        step = event.position() - self._last
+        height = max(self.height(), 1)
+        pans = event.buttons() & Qt.MouseButton.MiddleButton or event.modifiers() & Qt.KeyboardModifier.ShiftModifier
+        if event.buttons() & Qt.MouseButton.RightButton:
+            self.camera_model.zoom(4.0 ** (-step.y() / height))
+        elif pans:
+            self.camera_model.pan(step.x() / height, -step.y() / height)
+        else:
+            self.camera_model.rotate(220.0 * step.x() / height, 220.0 * step.y() / height)
+        self._fitted = False
+        self._place_camera()
+
+    def _from_centre(self, place: QPointF) -> tuple[float, float]:
+        height = max(self.height(), 1)
+        return (place.x() - self.width() / 2) / height, (self.height() / 2 - place.y()) / height
+
+    def _hover(self, vertex: int) -> None:
+        if vertex != self._hovered:
+            self._hovered = vertex
+            self.vertex_hovered.emit(vertex)
+
+    # -- painting -----------------------------------------------------------------------------------------------------
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        super().resizeEvent(event)
+        if self._fitted:
+            self.fit()
+
+    def paintGL(self) -> None:
+        super().paintGL()
+        self.painted.emit()
+
+    def picture(self, scale: float, *, transparent: bool) -> QImage:
+        """The scene alone at `scale` times the widget's size in device-independent pixels."""
+        self.grabFramebuffer()  # a hidden or stale widget paints first
+        factor = max(1, round(scale / self.devicePixelRatioF()))
+        pixels = np.ascontiguousarray(
+            self.screenshot(return_img=True, scale=factor, transparent_background=transparent)
+        )
+        height, width, channels = pixels.shape
+        kind = QImage.Format.Format_RGBA8888 if channels == 4 else QImage.Format.Format_RGB888
+        return QImage(pixels.data, width, height, channels * width, kind).copy()
+
+    def _remove(self, actors: list[pv.Actor]) -> None:
+        for actor in actors:
+            self.renderer.RemoveActor(actor)
+
+
+def _normals(shape: Shape) -> FloatArray | None:
+    return getattr(shape, "vertex_normals", None) if not hasattr(shape, "normals") else shape.normals
+
+
+def _add_lights(view: View3D) -> None:
+    """A gentle key from the upper left and a weak fill from the right; both move with the eye, so no side is ever black."""
+    for place, intensity in (((-0.55, 0.75, 1.0), 0.78), ((0.9, -0.1, 0.6), 0.26), ((0.0, 0.2, 1.0), 0.16)):
+        light = pv.Light(position=place, focal_point=(0, 0, 0), light_type="camera light", intensity=intensity)
+        view.add_light(light)

@@ -1,0 +1,94 @@
+"""The shape itself: bare skin, or a field drawn on it in place."""
+
+from __future__ import annotations
+
+import numpy as np
+import pyvista as pv
+from numpy.typing import NDArray
+from vtkmodules.util.numpy_support import numpy_to_vtk
+from vtkmodules.vtkCommonCore import vtkLookupTable
+
+from add_core.geometry import TriangleMesh
+
+from ...models.colours import kernel_map
+from ...models.shapes import Shape
+from .picker import CloudPicker, MeshPicker
+
+FloatArray = NDArray[np.float64]
+_FIELD = "field"
+
+
+class Surface:
+    """One shape in the scene. `show_field` only writes numbers into the array that VTK already draws."""
+
+    def __init__(self, shape: Shape) -> None:
+        self.shape = shape
+        self.dataset = _dataset(shape)
+        self._field = np.zeros(shape.vertex_count, dtype=np.float32)
+        self.dataset.point_data[_FIELD] = self._field
+        self.dataset.point_data.active_scalars_name = _FIELD
+        self.picker = MeshPicker(self.dataset) if isinstance(shape, TriangleMesh) else CloudPicker(self.dataset)
+        self.actor = self._make_actor()
+
+    def show_field(self, position: FloatArray | None) -> None:
+        """Colour by `position` (n,) in [0, 1] on the kernel map; None is bare skin."""
+        array = self.dataset.point_data[_FIELD]
+        array[:] = 0.0 if position is None else position
+        self.dataset.GetPointData().GetArray(_FIELD).Modified()
+        self.dataset.Modified()
+
+    def show_wireframe(self, on: bool) -> None:
+        """Draw the triangles' edges over the surface."""
+        self.actor.prop.show_edges = on and isinstance(self.shape, TriangleMesh)
+        self.actor.prop.edge_color = (0.35, 0.35, 0.37)
+        self.actor.prop.line_width = 0.5
+
+    def _make_actor(self) -> pv.Actor:
+        mapper = pv.DataSetMapper(self.dataset)
+        mapper.SetLookupTable(_lookup_table())
+        mapper.SetScalarRange(0.0, 1.0)
+        mapper.SetScalarVisibility(True)
+        mapper.SetUseLookupTableScalarRange(True)
+        # Interpolating values and not colours keeps the map's own colours between vertices far apart.
+        mapper.SetInterpolateScalarsBeforeMapping(True)
+        actor = pv.Actor(mapper=mapper)
+        prop = actor.prop
+        prop.ambient, prop.diffuse, prop.specular, prop.specular_power = 0.22, 0.80, 0.06, 18.0
+        if isinstance(self.shape, TriangleMesh):
+            prop.interpolation = "Phong"
+        else:
+            prop.style, prop.point_size, prop.render_points_as_spheres = "points", _point_size(self.shape), True
+        return actor
+
+
+def _dataset(shape: Shape) -> pv.PolyData:
+    if isinstance(shape, TriangleMesh):
+        dataset = pv.PolyData.from_regular_faces(shape.vertices.astype(np.float32), shape.faces)
+        normals = shape.vertex_normals
+    else:
+        dataset = pv.PolyData(shape.vertices.astype(np.float32))
+        normals = shape.normals
+    if normals is not None:
+        dataset.GetPointData().SetNormals(_vtk_array("normals", normals))
+    return dataset
+
+
+def _vtk_array(name: str, values: FloatArray):  # type: ignore[no-untyped-def]
+    array = numpy_to_vtk(np.ascontiguousarray(values, dtype=np.float32), deep=True)
+    array.SetName(name)
+    return array
+
+
+def _lookup_table() -> vtkLookupTable:
+    colours = kernel_map(256)
+    table = vtkLookupTable()
+    table.SetNumberOfTableValues(len(colours))
+    table.SetTableRange(0.0, 1.0)
+    for index, (red, green, blue) in enumerate(colours):
+        table.SetTableValue(index, red, green, blue, 1.0)
+    return table
+
+
+def _point_size(shape: Shape) -> float:
+    """Neighbouring discs touch on a picture some 700 pixels high."""
+    return float(np.clip(700.0 / np.sqrt(shape.vertex_count) * 0.9, 2.0, 14.0))

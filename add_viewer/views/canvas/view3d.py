@@ -1,0 +1,61 @@
+"""A PyVista scene in a Qt widget, with exactly one VTK render for each Qt paint."""
+
+from __future__ import annotations
+
+import os
+from typing import Any
+
+os.environ.setdefault("QT_API", "pyside6")
+
+from PySide6.QtCore import QEvent
+from PySide6.QtGui import QDragEnterEvent, QDropEvent, QEnterEvent, QKeyEvent
+from pyvistaqt import QtInteractor
+
+
+class View3D(QtInteractor):  # type: ignore[misc]
+    """QtInteractor whose renders are merged into Qt's paints, and whose mouse and keys belong to the window.
+
+    QtInteractor renders on every change and then again when Qt paints; here a change only asks for a paint. VTK's own
+    key bindings ("w", "q", …) and mouse styles are switched off: `Canvas` moves the camera.
+    """
+
+    def __init__(self, parent: Any = None) -> None:
+        super().__init__(parent, auto_update=False, multi_samples=0, lighting="none")
+        self.enable_anti_aliasing("fxaa")
+        self._Iren.EnableRenderOff()
+        self._Iren.SetInteractorStyle(None)
+
+    def _render(self, *_args: Any, **_options: Any) -> None:
+        self._rendered = True
+        if not getattr(self, "_closed", False):
+            self.update()
+
+    def paintGL(self) -> None:
+        iren = self.__dict__.get("_Iren")
+        if getattr(self, "_closed", False) or not hasattr(iren, "EnableRenderOn"):
+            return
+        iren.EnableRenderOn()
+        try:
+            super().paintGL()
+        finally:
+            iren.EnableRenderOff()
+
+    # What QtInteractor would do with these events belongs to the window: propagate.
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        event.ignore()
+
+    def keyReleaseEvent(self, event: QKeyEvent) -> None:
+        event.ignore()
+
+    def dragEnterEvent(self, event: QDragEnterEvent) -> None:
+        event.ignore()
+
+    def dropEvent(self, event: QDropEvent) -> None:
+        event.ignore()
+
+    def enterEvent(self, event: QEnterEvent) -> None:
+        event.ignore()
+
+    def leaveEvent(self, event: QEvent) -> None:
+        event.ignore()

@@ -1,0 +1,168 @@
+"""The curves at the picked points, linked to the θ dial and the t slider."""
+
+from __future__ import annotations
+
+from math import pi, radians
+from pathlib import Path
+
+from matplotlib.backend_bases import MouseEvent
+from matplotlib.backends.backend_qtagg import FigureCanvasQTAgg
+from matplotlib.figure import Figure
+from PySide6.QtCore import QEvent, QSize, Qt, QTimer
+from PySide6.QtWidgets import QHBoxLayout, QLabel, QStackedLayout, QVBoxLayout, QWidget
+
+from ..models.results import Results
+from ..models.session import Session
+from .curve_plots import CurvePlots, CurveScene
+from .theme import GRID, LIGHT, Theme
+
+
+class CurvePanel(QWidget):
+    """AHKS over θ (Cartesian and polar) and over t, with the HKS beside it; drag in a plot to turn θ or move t."""
+
+    def __init__(self, session: Session, results: Results, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._session, self._results, self._theme = session, results, LIGHT
+        self.relative = True
+        self.figure = Figure()
+        self.canvas = _BlittedCanvas(self.figure)
+        self.plots = CurvePlots(self.figure)
+        self._empty = QLabel("Pick a point to see how much heat stays there, for every direction and time")
+        self._empty.setAlignment(Qt.AlignmentFlag.AlignCenter)
+        self._empty.setWordWrap(True)
+        self._empty.setProperty("role", "muted")
+        self._legend = QLabel()
+        self._legend.setProperty("role", "muted")
+        self._lay_out()
+        self._connect()
+
+    def _lay_out(self) -> None:
+        plots = QWidget()
+        column = QVBoxLayout(plots)
+        column.setContentsMargins(0, 0, 0, GRID // 2)
+        column.setSpacing(0)
+        column.addWidget(self.canvas, 1)
+        row = QHBoxLayout()
+        row.setContentsMargins(2 * GRID, 0, 2 * GRID, 0)
+        row.addWidget(self._legend, 1)
+        column.addLayout(row)
+        self._stack = QStackedLayout(self)
+        self._stack.addWidget(self._empty)
+        self._stack.addWidget(plots)
+
+    def _connect(self) -> None:
+        self._frame = QTimer(self, singleShot=True, interval=0)
+        self._frame.timeout.connect(self._draw_moving)
+        self.canvas.place = self._place
+        for event in ("button_press_event", "motion_notify_event"):
+            self.canvas.mpl_connect(event, self._dragged)
+        self.canvas.mpl_connect("button_release_event", lambda _event: self._session.end_gesture())
+        self._results.curves_changed.connect(self._show_curves)
+        self._session.diffusion_changed.connect(self._move)
+
+    # -- models to view -----------------------------------------------------------------------------------------------
+
+    def scene(self, theme: Theme | None = None) -> CurveScene:
+        """What is shown now, for another theme if wanted."""
+        diffusion = self._session.state.diffusion
+        return CurveScene(self._results.curves, diffusion.theta, diffusion.reach, self.relative, theme or self._theme)
+
+    def _show_curves(self) -> None:
+        curves = self._results.curves
+        self._stack.setCurrentIndex(1 if curves else 0)
+        self._legend.setText(
+            "Thick: the shown t.  Thin: t/10, dashed 10 t.  Right: thick AHKS at θ, thin HKS (α = 0) at equal t·λ₁."
+        )
+        if curves:
+            self._draw_all()
+
+    def _move(self) -> None:
+        self._frame.start()  # several changes, one picture
+
+    def _place(self) -> None:
+        ratio = self.figure.dpi / 72.0
+        width, height = self.canvas.get_width_height()
+        self.plots.lay_out(width / ratio, height / ratio)
+
+    def _draw_all(self) -> None:
+        self.plots.draw_static(self.scene())
+        self.canvas.draw()
+        self._draw_moving()
+
+    def _draw_moving(self) -> None:
+        if self._results.curves and self.isVisible():
+            self.canvas.draw_artists(self.plots.moving_artists(self.scene()))
+
+    def set_relative(self, relative: bool) -> None:
+        """Divide each curve by its mean over θ, or show it as it is."""
+        self.relative = relative
+        self._show_curves()
+
+    def show_theme(self, theme: Theme) -> None:
+        """Draw the plots in the theme's colours."""
+        self._theme = theme
+        self._draw_all()
+
+    # -- what a person does -------------------------------------------------------------------------------------------
+
+    def _dragged(self, event: MouseEvent) -> None:
+        if event.button != 1 or event.xdata is None or event.ydata is None or not self._results.curves:
+            return
+        if event.inaxes is self.plots.theta_axes:
+            self._session.diffuse(theta=radians(event.xdata) % pi)
+        elif event.inaxes is self.plots.polar_axes:
+            self._session.diffuse(theta=event.xdata % pi)
+        elif event.inaxes is self.plots.time_axes:
+            self._session.diffuse(reach=event.xdata * self._results.curves[0].weyl_eigenvalue)
+
+    def save(self, path: Path, theme: Theme) -> None:
+        """Write the plots to a PNG, SVG or PDF, on white if `theme` is light."""
+        width, height = (
+            max(size, 480 if index == 0 else 200) for index, size in enumerate(self.canvas.get_width_height())
+        )
+        figure = Figure(figsize=(width / 100, height / 100), dpi=100)
+        plots = CurvePlots(figure)
+        plots.lay_out(width * 0.72, height * 0.72)
+        scene = self.scene(theme)
+        plots.draw_static(scene)
+        for axes, artist in plots.moving_artists(scene):
+            artist.set_animated(False)
+            axes.add_artist(artist)
+        figure.savefig(path, dpi=300, format=path.suffix.lstrip(".").lower())
+
+    def sizeHint(self) -> QSize:
+        return QSize(720, 240)
+
+
+class _BlittedCanvas(FigureCanvasQTAgg):
+    """Keeps the picture of the axes and draws what moves over it, a few milliseconds a time."""
+
+    def __init__(self, figure: Figure) -> None:
+        super().__init__(figure)
+        self.place = lambda: None
+        self._background: object = None
+        self._moving: list = []
+        self.mpl_connect("draw_event", self._drawn)
+        self.setMinimumSize(200, 120)
+
+    def resizeEvent(self, event: QEvent) -> None:
+        super().resizeEvent(event)
+        self.place()
+
+    def draw_artists(self, artists: list) -> None:
+        """Show `artists`, pairs of axes and artist, instead of those shown before."""
+        self._moving = artists
+        if self._background is not None:
+            self.restore_region(self._background)
+            self._draw_moving()
+            self.update()
+
+    def _drawn(self, _event: object) -> None:
+        self._background = self.copy_from_bbox(self.figure.bbox)
+        self._draw_moving()
+
+    def _draw_moving(self) -> None:
+        renderer = self.get_renderer()
+        for _axes, artist in self._moving:
+            artist.set_figure(self.figure) if artist.get_figure() is None else None
+            artist.draw(renderer)

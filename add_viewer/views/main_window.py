@@ -1,0 +1,270 @@
+"""The window: menus around, the view in the middle, controls on the left, curves below."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from PySide6.QtCore import QPoint, Qt, Signal
+from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent
+from PySide6.QtWidgets import (
+    QApplication,
+    QDockWidget,
+    QLabel,
+    QMainWindow,
+    QMenu,
+    QProgressBar,
+    QScrollArea,
+    QStackedWidget,
+    QVBoxLayout,
+    QWidget,
+)
+
+from add_core import __version__
+
+from ..models.display import Display
+from ..models.results import Notice, Results
+from ..models.session import Session
+from .curve_panel import CurvePanel
+from .menus import Menus
+from .message_bar import MessageBar
+from .parameter_panel import ParameterPanel
+from .settings import Settings
+from .shape_view import ShapeView
+from .start_page import Gallery, StartPage
+from .theme import GRID, apply_theme, theme_of
+
+TITLE = "Anisotropic Diffusion Descriptors"
+
+
+class MainWindow(QMainWindow):
+    """Puts the parts together and lets them show the models.
+
+    open_requested : a path or a shipped name that the person wants to see.
+    """
+
+    open_requested = Signal(str)
+
+    def __init__(
+        self, session: Session, results: Results, display: Display, settings: Settings, galleries: tuple[Gallery, ...]
+    ) -> None:
+        super().__init__()
+        self.session, self.results, self.display, self.settings = session, results, display, settings
+        settings.restore_display(display)
+        self.setWindowTitle(TITLE)
+        self.setAcceptDrops(True)
+        self.setDockNestingEnabled(True)
+        self.menus = Menus(self, display)
+        self.view = ShapeView(session, results, display)
+        self.start = StartPage(galleries)
+        self.message = MessageBar()
+        self.parameters = ParameterPanel(session, results)
+        self.curves = CurvePanel(session, results)
+        self._build()
+        self._connect()
+        self._show_theme()
+        self._show_recent()
+        self._show_active()
+        self._show_history()
+        if not settings.restore_window(self):
+            self.resize(1440, 900)
+
+    # -- building -----------------------------------------------------------------------------------------------------
+
+    def _build(self) -> None:
+        self.pages = QStackedWidget()
+        self.pages.addWidget(self.start)
+        self.pages.addWidget(self.view)
+        centre = QWidget()
+        column = QVBoxLayout(centre)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.setSpacing(0)
+        column.addWidget(self.message)
+        column.addWidget(self.pages, 1)
+        self.setCentralWidget(centre)
+        scroll = QScrollArea()
+        scroll.setWidget(self.parameters)
+        scroll.setWidgetResizable(True)
+        scroll.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        self.setCorner(Qt.Corner.BottomLeftCorner, Qt.DockWidgetArea.LeftDockWidgetArea)
+        self.parameter_dock = self._dock("Diffusion", scroll, Qt.DockWidgetArea.LeftDockWidgetArea)
+        self.curve_dock = self._dock("Curves at the picked points", self.curves, Qt.DockWidgetArea.BottomDockWidgetArea)
+        self.parameter_dock.setMinimumWidth(37 * GRID)
+        self.resizeDocks([self.parameter_dock], [38 * GRID], Qt.Orientation.Horizontal)
+        self.resizeDocks([self.curve_dock], [30 * GRID], Qt.Orientation.Vertical)
+        self._build_status()
+
+    def _dock(self, title: str, widget: QWidget, area: Qt.DockWidgetArea) -> QDockWidget:
+        dock = QDockWidget(title, self)
+        dock.setObjectName(title)
+        dock.setWidget(widget)
+        self.addDockWidget(area, dock)
+        self.menus.docks.addAction(dock.toggleViewAction())
+        return dock
+
+    def _build_status(self) -> None:
+        self.hover_label, self.busy_label, self.progress = QLabel(), QLabel(), QProgressBar()
+        self.progress.setFixedWidth(15 * GRID)
+        self.progress.setTextVisible(False)
+        self.progress.hide()
+        bar = self.statusBar()
+        bar.setSizeGripEnabled(False)
+        bar.setContentsMargins(GRID, 0, GRID, 0)
+        bar.addWidget(self.hover_label, 1)
+        bar.addPermanentWidget(self.busy_label)
+        bar.addPermanentWidget(self.progress)
+
+    def _connect(self) -> None:
+        self.session.active_changed.connect(self._show_active)
+        self.session.history_changed.connect(self._show_history)
+        self.results.busy_changed.connect(self._show_busy)
+        self.results.noticed.connect(self._show_notice)
+        self.display.changed.connect(lambda name: self._show_theme() if name == "theme" else None)
+        QApplication.styleHints().colorSchemeChanged.connect(self._show_theme)
+        self.view.hovered.connect(self.hover_label.setText)
+        self.view.menu_requested.connect(self._show_context_menu)
+        self.start.chosen.connect(self.open_requested)
+        looks = ("front", "back", "left", "right", "top")
+        for name in looks:
+            self.menus.on(name, lambda name=name: self.view.canvas.look(name))
+        self.menus.on("fit", self.view.canvas.fit)
+        self.menus.on("undo", self.session.undo)
+        self.menus.on("redo", self.session.redo)
+        self.menus.on("clear", self.session.clear_picks)
+        self.menus.on("pick_mirror", self._pick_mirror)
+        self.menus.on("go_to", self._go_to)
+        self.menus.on("play", self.parameters.play.toggle)
+        self.menus.on("start", lambda: self.pages.setCurrentWidget(self.start))
+        self.menus.on("close", self._close_shape)
+        self.menus.on("quit", self.close)
+
+    # -- models to view -----------------------------------------------------------------------------------------------
+
+    def _show_active(self) -> None:
+        shape = self.session.state.active
+        self.pages.setCurrentWidget(self.start if shape is None else self.view)
+        self.setWindowTitle(TITLE if shape is None else f"{shape.name} — {TITLE}")
+        self.message.hide()
+        self.parameters.play.setChecked(False)
+        for name in ("close", "screenshot", "go_to", "fit", "play", "front", "back", "left", "right", "top"):
+            self.menus.actions[name].setEnabled(shape is not None)
+        docks = shape is not None
+        self.parameter_dock.widget().setEnabled(docks)
+
+    def _show_history(self) -> None:
+        picks = self.session.state.active_picks
+        enabled = {
+            "undo": self.session.can_undo,
+            "redo": self.session.can_redo,
+            "clear": bool(picks),
+            "curves": bool(picks),
+            "pick_mirror": bool(picks) and self._mirror() is not None,
+        }
+        for name, on in enabled.items():
+            self.menus.actions[name].setEnabled(on)
+
+    def _show_busy(self) -> None:
+        self.busy_label.setText(self.results.busy)
+        self.progress.setVisible(bool(self.results.busy))
+        share = self.results.progress
+        self.progress.setRange(0, 0 if share is None else 100)
+        self.progress.setValue(0 if share is None else round(100 * share))
+
+    def _show_notice(self, notice: Notice) -> None:
+        self.message.show_notice(notice)
+
+    def _show_theme(self) -> None:
+        theme = theme_of(self.display["theme"])
+        apply_theme(QApplication.instance(), theme)
+        for part in (self.menus, self.view, self.start, self.message, self.parameters, self.curves):
+            part.show_theme(theme)
+
+    def _show_recent(self) -> None:
+        references = self.settings.recent
+        self.start.show_recent(references)
+        menu = self.menus.recent
+        menu.clear()
+        for reference in references:
+            menu.addAction(reference).triggered.connect(lambda _checked, name=reference: self.open_requested.emit(name))
+        menu.setEnabled(bool(references))
+        if references:
+            menu.addSeparator()
+            menu.addAction("Clear this list").triggered.connect(self._clear_recent)
+
+    def remember(self, reference: str) -> None:
+        """Put a reference at the head of the recent ones."""
+        self.settings.add_recent(reference)
+        self._show_recent()
+
+    def _clear_recent(self) -> None:
+        self.settings.clear_recent()
+        self._show_recent()
+
+    # -- what a person does -------------------------------------------------------------------------------------------
+
+    def _mirror(self) -> int | None:
+        state = self.session.state
+        plain = [pick for pick in state.active_picks if not pick.is_mirror]
+        return state.active.mirror(plain[-1].vertex) if state.active and plain else None
+
+    def _pick_mirror(self) -> None:
+        plain = [pick for pick in self.session.state.active_picks if not pick.is_mirror]
+        if plain:
+            self.session.pick_mirror(plain[-1].vertex)
+
+    def _go_to(self) -> None:
+        self.parameter_dock.show()
+        self.parameter_dock.raise_()
+        self.parameters.picks.field.setFocus(Qt.FocusReason.ShortcutFocusReason)
+
+    def _close_shape(self) -> None:
+        if self.session.state.active_key is not None:
+            self.session.close_shape(self.session.state.active_key)
+
+    def _show_context_menu(self, place: QPoint, vertex: int) -> None:
+        menu = self.context_menu(vertex)
+        menu.popup(place)
+
+    def context_menu(self, vertex: int) -> QMenu:
+        """What makes sense at `vertex`, or beside the shape (-1)."""
+        menu = QMenu(self)
+        menu.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        session, shape = self.session, self.session.state.active
+        if vertex >= 0 and shape is not None:
+            picked = any(pick.vertex == vertex for pick in session.state.active_picks)
+            menu.addAction(f"Drop heat on vertex {vertex}").triggered.connect(lambda: session.pick(vertex))
+            if picked:
+                menu.addAction("Remove this point").triggered.connect(lambda: session.unpick(vertex))
+            else:
+                menu.addAction("Add this point").triggered.connect(lambda: session.pick(vertex, add=True))
+            if shape.mirror(vertex) is not None:
+                menu.addAction("Add its mirror point").triggered.connect(lambda: session.pick_mirror(vertex))
+            copy = menu.addAction(f"Copy the number {vertex}")
+            copy.triggered.connect(lambda: QApplication.clipboard().setText(str(vertex)))
+            menu.addSeparator()
+        for name in ("fit", "front", "arrows", "wireframe", "clear", "screenshot"):
+            menu.addAction(self.menus.actions[name])
+        return menu
+
+    def dragEnterEvent(self, event: QDragEnterEvent) -> None:
+        if any(url.isLocalFile() for url in event.mimeData().urls()):
+            event.acceptProposedAction()
+
+    def dropEvent(self, event: QDropEvent) -> None:
+        for url in event.mimeData().urls():
+            if url.isLocalFile():
+                self.open_requested.emit(str(Path(url.toLocalFile())))
+        event.acceptProposedAction()
+
+    def closeEvent(self, event: QCloseEvent) -> None:
+        self.parameters.play.setChecked(False)
+        self.settings.keep_window(self)
+        self.view.canvas.close()  # VTK must let go of the graphics context while it still exists
+        super().closeEvent(event)
+
+    @property
+    def about_text(self) -> str:
+        return (
+            f"<b>{TITLE}</b> {__version__}<p>Shape descriptors that know directions, after Boscaini, Masci, Rodolà, "
+            "Bronstein and Cremers, Eurographics 2016.</p><p>MIT licence. People: MakeHuman (CC0). "
+            "Dogs: dm_control (Apache-2.0).</p>"
+        )

@@ -1,0 +1,153 @@
+"""The menus: every action with its words, its key and its icon, in one table."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from PySide6.QtGui import QAction, QActionGroup, QKeySequence
+from PySide6.QtWidgets import QMainWindow, QMenu
+
+from ..models.display import Display
+from .icons import icon
+from .theme import Theme
+
+
+@dataclass(frozen=True)
+class Entry:
+    """One action: its words, key, icon and one sentence of help."""
+
+    name: str
+    text: str
+    key: str = ""
+    icon: str = ""
+    help: str = ""
+
+
+FILE = (
+    Entry("open", "&Open…", "Ctrl+O", "mdi6.folder-open-outline", "Open shapes from files"),
+    Entry("start", "Open &shipped shape…", "Ctrl+Shift+O", "mdi6.human-handsup", "Choose one of the people and dogs"),
+    Entry("recent", "Open &recent"),
+    Entry("", ""),
+    Entry(
+        "screenshot", "Save &picture…", "Ctrl+P", "mdi6.camera-outline", "Save the view as a PNG, up to 4×, transparent"
+    ),
+    Entry("curves", "&Export curves…", "Ctrl+E", "mdi6.chart-line", "Save the curves as PNG, SVG, PDF or CSV"),
+    Entry("", ""),
+    Entry("close", "&Close shape", "Ctrl+W", "mdi6.close", "Close the shown shape"),
+    Entry("quit", "&Quit", "Ctrl+Q", "mdi6.exit-to-app"),
+)
+EDIT = (
+    Entry("undo", "&Undo", "Ctrl+Z", "mdi6.undo"),
+    Entry("redo", "&Redo", "Ctrl+Shift+Z", "mdi6.redo"),
+    Entry("", ""),
+    Entry("go_to", "Pick &vertex by number…", "Ctrl+G", "mdi6.crosshairs", "Type the number of a vertex"),
+    Entry(
+        "pick_mirror", "Pick the &mirror point", "M", "mdi6.flip-horizontal", "Add the mirror image of the last pick"
+    ),
+    Entry("clear", "&Clear picks", "Esc", "mdi6.close-circle-outline"),
+    Entry("", ""),
+    Entry("play", "&Play θ", "Space", "mdi6.play", "Turn θ from 0° to 180°"),
+)
+LOOKS = (
+    Entry("fit", "&Fit to view", "F", "mdi6.fit-to-page-outline", "The whole shape, from the same side"),
+    Entry("front", "Fr&ont", "1"),
+    Entry("back", "&Back", "3"),
+    Entry("left", "Its &left side", "4"),
+    Entry("right", "Its &right side", "6"),
+    Entry("top", "&Top", "7"),
+)
+HELP = (
+    Entry("shortcuts", "&Mouse and keyboard", "F1", "mdi6.keyboard-outline"),
+    Entry("about", "&About", "", "mdi6.information-outline"),
+)
+SWITCHES = (
+    Entry("arrows", "&Directions on the skin", "D", "mdi6.arrow-top-right", "Where heat runs, turned by θ"),
+    Entry("wireframe", "&Wireframe", "W", "mdi6.grid", "The triangles' edges"),
+    Entry("colour_bar", "&Colour bar", "B", "mdi6.gradient-vertical"),
+)
+CHOICES = {
+    "theme": ("&Theme", {"system": "As the &system", "light": "&Light", "dark": "&Dark"}),
+    "kernel_scale": ("Colour &scale", {"log": "Lo&garithmic, two decades", "linear": "&Linear"}),
+    "up_axis": ("&Up axis", {"auto": "&Automatic", "+y": "&Y", "+z": "&Z"}),
+}
+
+
+class Menus:
+    """Builds the menu bar; `on(name, do)` says what an action does."""
+
+    def __init__(self, window: QMainWindow, display: Display) -> None:
+        self._window, self._display = window, display
+        self.actions: dict[str, QAction] = {}
+        self._icons: list[tuple[QAction, str]] = []
+        bar = window.menuBar()
+        self.file = self._menu(bar.addMenu("&File"), FILE)
+        self.edit = self._menu(bar.addMenu("&Edit"), EDIT)
+        self.view = self._view_menu(bar.addMenu("&View"))
+        self.help = self._menu(bar.addMenu("&Help"), HELP)
+        display.changed.connect(self._show_display)
+
+    def on(self, name: str, do: Callable[[], object]) -> None:
+        """Let action `name` call `do`."""
+        self.actions[name].triggered.connect(lambda _checked=False: do())
+
+    def _menu(self, menu: QMenu, entries: tuple[Entry, ...]) -> QMenu:
+        for entry in entries:
+            if not entry.name:
+                menu.addSeparator()
+            elif entry.name == "recent":
+                self.recent = menu.addMenu(entry.text)
+            else:
+                menu.addAction(self._action(entry))
+        return menu
+
+    def _view_menu(self, menu: QMenu) -> QMenu:
+        for entry in SWITCHES:
+            action = self._action(entry)
+            action.setCheckable(True)
+            action.setChecked(self._display[entry.name])
+            action.toggled.connect(lambda on, name=entry.name: self._display.set(name, on))
+            menu.addAction(action)
+        for name in ("kernel_scale",):
+            menu.addMenu(self._choice(name))
+        menu.addSeparator()
+        self._menu(menu, LOOKS)
+        menu.addMenu(self._choice("up_axis"))
+        menu.addSeparator()
+        self.docks = menu.addMenu("&Panels")
+        menu.addMenu(self._choice("theme"))
+        return menu
+
+    def _choice(self, name: str) -> QMenu:
+        title, options = CHOICES[name]
+        menu, group = QMenu(title, self._window), QActionGroup(self._window)
+        for value, text in options.items():
+            action = QAction(text, self._window, checkable=True, checked=self._display[name] == value)
+            action.triggered.connect(lambda _checked, value=value: self._display.set(name, value))
+            self.actions[f"{name}:{value}"] = group.addAction(action)
+            menu.addAction(action)
+        return menu
+
+    def _action(self, entry: Entry) -> QAction:
+        action = QAction(entry.text, self._window)
+        if entry.key:
+            action.setShortcut(QKeySequence(entry.key))
+        if entry.help:
+            action.setStatusTip(entry.help)
+        if entry.icon:
+            self._icons.append((action, entry.icon))
+        self.actions[entry.name] = action
+        self._window.addAction(action)
+        return action
+
+    def _show_display(self, name: str) -> None:
+        value = self._display[name]
+        if isinstance(value, bool):
+            self.actions[name].setChecked(value)
+        else:
+            self.actions[f"{name}:{value}"].setChecked(True)
+
+    def show_theme(self, theme: Theme) -> None:
+        """Icons in the theme's text colour."""
+        for action, name in self._icons:
+            action.setIcon(icon(name, theme.text))

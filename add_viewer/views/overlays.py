@@ -1,0 +1,151 @@
+"""Quiet labels over the 3-D view, drawn by Qt so that text is sharp at every scale and in exports."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+from PySide6.QtCore import QPointF, QRectF, QSize, Qt
+from PySide6.QtGui import QColor, QFont, QLinearGradient, QPainter, QPaintEvent, QPen
+from PySide6.QtWidgets import QWidget
+
+from ..models.colours import hex_colour, kernel_map
+from .theme import LIGHT, Theme, round_pen
+
+FloatArray = NDArray[np.float64]
+
+
+class Overlay(QWidget):
+    """Something drawn in a corner of the view; the mouse passes through."""
+
+    def __init__(self, parent: QWidget, size: QSize) -> None:
+        super().__init__(parent)
+        self.theme = LIGHT
+        self.setFixedSize(size)
+        self.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
+        self.setAttribute(Qt.WidgetAttribute.WA_NoSystemBackground)
+
+    def show_theme(self, theme: Theme) -> None:
+        self.theme = theme
+        self.update()
+
+    def paintEvent(self, _event: QPaintEvent) -> None:
+        self.draw(QPainter(self))
+
+    def draw(self, painter: QPainter) -> None:
+        """Draw at the painter's origin: on the widget, or on a picture for a file."""
+        raise NotImplementedError
+
+    def _pen(self, painter: QPainter, name: str, *, size: float = 1.0, bold: bool = False) -> None:
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        font = QFont(self.font())
+        font.setPointSizeF(size * font.pointSizeF())
+        font.setBold(bold)
+        painter.setFont(font)
+        painter.setPen(self.theme.colour(name))
+
+
+class ColourBar(Overlay):
+    """What the colours mean: quantity, unit, scale."""
+
+    def __init__(self, parent: QWidget) -> None:
+        super().__init__(parent, QSize(152, 232))
+        self._title, self._lines, self._ticks = "", ("", ""), list[tuple[float, str]]()
+
+    def show_scale(self, title: str, lines: tuple[str, str], ticks: list[tuple[float, str]]) -> None:
+        """`title` names the quantity, `lines` its unit and scale, `ticks` are positions in [0, 1] and labels."""
+        self._title, self._lines, self._ticks = title, lines, ticks
+        self.update()
+
+    def draw(self, painter: QPainter) -> None:
+        width, height = self.width(), self.height()
+        flags = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
+        self._pen(painter, "text", bold=True)
+        painter.drawText(QRectF(0, 0, width, 18), flags, self._title)
+        self._pen(painter, "muted", size=0.9)
+        painter.drawText(QRectF(0, 18, width, 16), flags, self._lines[0])
+        painter.drawText(QRectF(0, 34, width, 16), flags, self._lines[1])
+        bar = QRectF(width - 17, 60, 16, height - 68)
+        ramp = QLinearGradient(bar.bottomLeft(), bar.topLeft())
+        for at, colour in zip(np.linspace(0, 1, 33), kernel_map(33), strict=True):
+            ramp.setColorAt(float(at), QColor(hex_colour(colour)))
+        painter.setPen(QPen(self.theme.colour("muted"), 0.75))
+        painter.setBrush(ramp)
+        painter.drawRect(bar)
+        self._pen(painter, "text", size=0.9)
+        for at, label in self._ticks:
+            y = bar.bottom() - at * bar.height()
+            painter.drawLine(QPointF(bar.left() - 4, y), QPointF(bar.left(), y))
+            painter.drawText(QRectF(0, y - 9, bar.left() - 8, 18), flags, label)
+
+
+class CornerLabel(Overlay):
+    """Which shape this is, and how many vertices it has."""
+
+    def __init__(self, parent: QWidget) -> None:
+        super().__init__(parent, QSize(480, 40))
+        self._name = self._detail = ""
+
+    def show_text(self, name: str, detail: str) -> None:
+        self._name, self._detail = name, detail
+        self.update()
+
+    def draw(self, painter: QPainter) -> None:
+        self._pen(painter, "text", bold=True)
+        name = painter.fontMetrics().elidedText(self._name, Qt.TextElideMode.ElideMiddle, self.width())
+        painter.drawText(QRectF(0, 0, self.width(), 18), Qt.AlignmentFlag.AlignLeft, name)
+        self._pen(painter, "muted", size=0.95)
+        painter.drawText(QRectF(0, 19, self.width(), 18), Qt.AlignmentFlag.AlignLeft, self._detail)
+
+
+class AxesTriad(Overlay):
+    """Where the shape's x, y and z point."""
+
+    COLOURS = ("#c0504d", "#4f8f4f", "#3f6fb5")
+
+    def __init__(self, parent: QWidget) -> None:
+        super().__init__(parent, QSize(64, 64))
+        self._axes = np.eye(3)
+
+    def show_axes(self, axes: FloatArray) -> None:
+        """`axes` (3, 3): rows are the picture's right, up and towards the eye, in the shape's space."""
+        if not np.allclose(axes, self._axes):
+            self._axes = axes
+            self.update()
+
+    def draw(self, painter: QPainter) -> None:
+        self._pen(painter, "muted", size=0.85)
+        centre = QPointF(self.width() / 2, self.height() / 2)
+        for index in np.argsort(self._axes[2]):  # the farthest first
+            right, up, near = self._axes[:, index]
+            end = centre + 21 * QPointF(right, -up)
+            colour = QColor(self.COLOURS[index])
+            colour.setAlpha(255 if near > -0.2 else 120)
+            painter.setPen(round_pen(colour, 2))
+            painter.drawLine(centre, end)
+            label = centre + 28 * QPointF(right, -up)
+            if abs(near) < 0.93:
+                box = QRectF(label.x() - 8, label.y() - 8, 16, 16)
+                painter.drawText(box, Qt.AlignmentFlag.AlignCenter, "xyz"[index])
+
+
+class Hint(Overlay):
+    """What to do next, where there is nothing to see yet."""
+
+    def __init__(self, parent: QWidget) -> None:
+        super().__init__(parent, QSize(420, 36))
+        self._text = ""
+
+    def show_text(self, text: str) -> None:
+        self._text = text
+        self.setVisible(bool(text))
+        self.update()
+
+    def draw(self, painter: QPainter) -> None:
+        self._pen(painter, "text")
+        width = painter.fontMetrics().horizontalAdvance(self._text) + 32
+        box = QRectF((self.width() - width) / 2, 2, width, 32)
+        painter.setBrush(self.theme.colour("panel"))
+        painter.setPen(QPen(self.theme.colour("line"), 1))
+        painter.drawRoundedRect(box, 16, 16)
+        painter.setPen(self.theme.colour("text"))
+        painter.drawText(box, Qt.AlignmentFlag.AlignCenter, self._text)

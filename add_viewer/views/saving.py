@@ -1,0 +1,90 @@
+"""Saving pictures and curves: ask, write whole or not at all, say what happened."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Protocol
+
+from PySide6.QtGui import QImage
+from PySide6.QtWidgets import QDialog, QMessageBox
+
+from ..models.results import Notice
+from . import dialogs
+from .main_window import MainWindow
+from .theme import LIGHT
+
+
+class WriteAtomically(Protocol):
+    """Writes through a temporary file."""
+
+    def __call__(self, path: Path, write: object) -> None: ...
+
+
+class Saving:
+    """The saving actions of the window."""
+
+    def __init__(self, window: MainWindow, write_atomically, curves_table, explain) -> None:  # type: ignore[no-untyped-def]
+        self._window = window
+        self._write, self._table, self._explain = write_atomically, curves_table, explain
+        window.menus.on("screenshot", self.ask_picture)
+        window.menus.on("curves", self.ask_curves)
+        window.menus.on("open", self.ask_open)
+        window.start.browse.connect(self.ask_open)
+        window.menus.on("shortcuts", lambda: dialogs.shortcut_dialog(window).open())
+        window.menus.on("about", lambda: QMessageBox.about(window, "About", window.about_text))
+
+    def ask_open(self) -> None:
+        """Let the person choose files and open them."""
+        for path in dialogs.ask_open(self._window, self._window.settings.folder):
+            self._window.settings.folder = str(Path(path).parent)
+            self._window.open_requested.emit(path)
+
+    def ask_picture(self) -> None:
+        """Ask for size and place, then save the view."""
+        view = self._window.view
+        dialog = dialogs.PictureDialog(view.width(), view.height(), self._window)
+        if dialog.exec() != QDialog.DialogCode.Accepted:
+            return
+        path = dialogs.ask_picture(self._window, self._window.settings.folder, self._name())
+        if path is not None:
+            self.save_picture(path, dialog.choice)
+
+    def save_picture(self, path: Path, choice: dialogs.PictureChoice) -> None:
+        """Save the view as a PNG."""
+        view = self._window.view
+        image = view.picture(choice.scale, transparent=choice.transparent, labels=choice.labels)
+        self._save(path, lambda temporary: save_image(image, temporary))
+
+    def ask_curves(self) -> None:
+        """Ask for place and format, then save the curves."""
+        path = dialogs.ask_curves(self._window, self._window.settings.folder, f"{self._name()} curves")
+        if path is not None:
+            self.save_curves(path)
+
+    def save_curves(self, path: Path) -> None:
+        """Save the curves as PNG, SVG or PDF for print, or as CSV."""
+        if path.suffix.lower() == ".csv":
+            results, alpha = self._window.results, self._window.session.state.diffusion.alpha
+            text = self._table(results.curves, alpha)
+            self._save(path, lambda temporary: temporary.write_text(text, encoding="utf-8"))
+        else:
+            self._save(path, lambda temporary: self._window.curves.save(temporary, LIGHT))
+
+    def _save(self, path: Path, write) -> None:  # type: ignore[no-untyped-def]
+        try:
+            self._write(path, write)
+        except OSError as error:
+            self._window.results.noticed.emit(Notice(f"{path.name} was not saved: {self._explain(error)}"))
+            return
+        self._window.settings.folder = str(path.parent)
+        self._window.statusBar().showMessage(f"Saved {path}", 6000)
+
+    def _name(self) -> str:
+        shape = self._window.session.state.active
+        return "shape" if shape is None else shape.name.replace("/", "-").replace(",", "")
+
+
+def save_image(image: QImage, path: Path) -> None:
+    """Write a picture; raises OSError if Qt cannot."""
+    if not image.save(str(path), "PNG"):
+        raise OSError(5, "the picture could not be written; is the disk full?", str(path))
