@@ -1,36 +1,70 @@
-"""Heat kernel signature: how much heat stays."""
+"""Heat kernel signatures: how much heat stays."""
 
 from __future__ import annotations
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .._check import FloatArray, count_in, positive_array
-from ..errors import ParameterError
+from .._check import FloatArray, count_in, finite, positive, positive_array
 from ..spectra import Spectrum
+from .filters import spectral_signature
+from .range import lowest_nonzero_eigenvalue
 
 
 def heat_kernel_signature(spectrum: Spectrum, times: ArrayLike) -> FloatArray:
     """HKS of every vertex, h_t(x, x) = Σ_k exp(−t λ_k) φ_k(x)²: (n, T), 1/length².
 
-    times : (T,), length², > 0. The diagonal of eq. (7), Sun et al. 2009; with the spectrum of an anisotropic
-        operator, of eq. (17).
+    times : (T,), length², > 0; `heat_kernel_times` chooses them. The diagonal of eq. (7), Sun et al. 2009; with the
+    spectrum of an anisotropic operator, of eq. (17).
     Raises ParameterError if a time is not positive.
     """
     moments = positive_array("times", times)
-    return np.asarray(spectrum.eigenfunctions**2 @ np.exp(-np.outer(spectrum.eigenvalues, moments)))
+    return spectral_signature(spectrum, np.exp(-np.outer(spectrum.eigenvalues, moments)))
 
 
 def heat_kernel_times(spectrum: Spectrum, count: int = 100) -> FloatArray:
-    """The times of Sun et al. 2009, (count,), length²: geometric from 4 ln 10/λ_K to 4 ln 10/λ_1, the lowest
-    non-zero eigenvalue.
+    """The times of Sun et al. 2009, (count,), length²: geometric from 4 ln 10/λ_K to 4 ln 10/λ_1.
 
-    Raises ParameterError if the spectrum holds no non-zero eigenvalue.
+    λ_1 is the lowest non-zero eigenvalue. Raises ParameterError if the spectrum holds none.
     """
     count = count_in("count", count, 1, 1_000_000)
-    highest = spectrum.eigenvalues[-1]
-    rounding = max(1e-8 * highest, 1e-10 * 4 * np.pi / spectrum.mass.sum())
-    moving = spectrum.eigenvalues[spectrum.eigenvalues > rounding]
-    if not len(moving):
-        raise ParameterError("spectrum must hold a non-zero eigenvalue to take times from. Compute more of them.")
-    return np.asarray(4 * np.log(10) / np.geomspace(highest, moving[0], count))
+    lowest = lowest_nonzero_eigenvalue(spectrum)
+    return np.asarray(4 * np.log(10) / np.geomspace(spectrum.eigenvalues[-1], lowest, count))
+
+
+def scaled_heat_kernel_signature(spectrum: Spectrum, times: ArrayLike) -> FloatArray:
+    """HKS divided by the heat trace Σ_k exp(−t λ_k) of its time, as Sun et al. 2009 compare signatures: (n, T),
+    1/length².
+
+    Its mass-weighted sum is 1 at every time, so that no time outweighs the others. Raises like
+    `heat_kernel_signature`.
+    """
+    moments = positive_array("times", times)
+    trace = np.exp(-np.outer(spectrum.eigenvalues, moments)).sum(axis=0)
+    return np.asarray(heat_kernel_signature(spectrum, moments) / trace)
+
+
+def scale_invariant_heat_kernel_signature(
+    spectrum: Spectrum,
+    *,
+    frequencies: int = 6,
+    base: float = 2.0,
+    first: float = 1.0,
+    last: float = 25.0,
+    step: float = 1 / 16,
+) -> FloatArray:
+    """SI-HKS of Bronstein and Kokkinos 2010: (n, frequencies), without unit; the same for a shape of any size.
+
+    Heat is sampled at the logarithmic times base^τ, τ = first, first + step, …, last. The derivative of log h over
+    τ knows no factor, and the modulus of its Fourier transform no shift: the lowest `frequencies` of it are kept.
+    The shape's size cancels exactly only over all of τ; over the paper's range, for shapes of comparable size.
+    Vertices without mass have zeros.
+    """
+    step, base = positive("step", step), positive("base", base)
+    exponents = np.arange(finite("first", first), finite("last", last) + step / 2, step)
+    frequencies = count_in("frequencies", frequencies, 1, len(exponents) // 2)
+    logarithm = np.full((len(spectrum.mass), len(exponents)), 0.0)
+    heat = heat_kernel_signature(spectrum, base**exponents)
+    np.log(heat, out=logarithm, where=heat > 0)
+    spectrum_of_change = np.fft.fft(np.diff(logarithm, axis=1), axis=1)
+    return np.abs(spectrum_of_change[:, :frequencies])
