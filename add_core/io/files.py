@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike
 
 from ..errors import AddError, ParameterError, ShapeFileError
 from .contents import Fields, FileContents, Shape
-from .formats import FORMATS, extensions, format_of
+from .formats import FORMATS, extensions
 from .sniffing import looks_like
 
 _log = logging.getLogger(__name__)
@@ -46,9 +46,10 @@ def load_fields(path: StrPath) -> Fields:
     """
     path = Path(path)
     try:
-        if not format_of(path).holds_fields:
-            raise ShapeFileError(_no_fields(format_of(path).name))
-        return _contents(path).fields
+        contents = _contents(path)
+        if not (known := FORMATS[path.suffix.lower()]).holds_fields:
+            raise ShapeFileError(_no_fields(known.name))
+        return contents.fields
     except AddError as error:
         raise type(error)(f"{path}: {error}") from None
 
@@ -65,7 +66,9 @@ def save_shape(shape: Shape, path: StrPath, fields: Mapping[str, ArrayLike] | No
     """
     path = Path(path)
     try:
-        known = format_of(path)
+        known = FORMATS.get(path.suffix.lower())
+        if known is None:
+            raise ShapeFileError(_unsupported(path, None))
         if known.write is None:
             raise ShapeFileError(f"{known.name} files are read, but not written. Choose .glb.")
         if fields and not known.holds_fields:
@@ -76,11 +79,11 @@ def save_shape(shape: Shape, path: StrPath, fields: Mapping[str, ArrayLike] | No
 
 
 def _contents(path: Path) -> FileContents:
-    known = format_of(path) if not path.is_dir() else None
     data = _bytes_of(path)
     looks = looks_like(data)
+    known = FORMATS.get(path.suffix.lower())
     if known is None:
-        raise ShapeFileError("is a folder, not a file.")
+        raise ShapeFileError(_unsupported(path, looks))
     if looks is not None and looks not in known.looks:
         raise ShapeFileError(_misnamed(looks, known.name))
     return known.read(data, path)
@@ -88,19 +91,27 @@ def _contents(path: Path) -> FileContents:
 
 def _bytes_of(path: Path) -> bytes:
     try:
-        status = path.stat()
-        if stat.S_ISDIR(status.st_mode):
-            raise ShapeFileError("is a folder, not a file.")
-        if not stat.S_ISREG(status.st_mode):
-            raise ShapeFileError("is not a regular file.")  # a pipe or device may never end
-        data = path.read_bytes()
+        mode = path.stat().st_mode
+        # A pipe or a device may never end.
+        data = path.read_bytes() if stat.S_ISREG(mode) else b""
     except FileNotFoundError:
         raise ShapeFileError("there is no such file.") from None
     except (OSError, ValueError) as error:  # ValueError: a null character in the name
         raise ShapeFileError(f"cannot be read ({getattr(error, 'strerror', None) or error}).") from None
-    if not data.strip(b" \t\r\n"):
+    if not stat.S_ISREG(mode):
+        raise ShapeFileError("is a folder, not a file." if stat.S_ISDIR(mode) else "is not a regular file.")
+    if not data.strip(b" \t\r\n\0"):
         raise ShapeFileError("is empty.")
     return data
+
+
+def _unsupported(path: Path, looks: str | None) -> str:
+    if looks in _PACKED:
+        return _misnamed(looks, "")
+    named = f"the extension {path.suffix!r} is not supported" if path.suffix else "the name has no extension"
+    endings = [ext for ext, known in FORMATS.items() if looks == known.looks[0]]
+    remedy = f" It looks like {looks}: rename it to end in {endings[0]}." if endings else ""
+    return f"{named}. Supported are {', '.join(FORMATS)}.{remedy}"
 
 
 def _misnamed(looks: str, expected: str) -> str:

@@ -6,7 +6,6 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
-from ..errors import ShapeFileError
 from . import gltf, npz, obj, off, ply, stl, vtk_legacy, vtk_writing, vtk_xml, xyz
 from .contents import Fields, FileContents, Shape
 
@@ -42,15 +41,6 @@ FORMATS: dict[str, Format] = {
     ".xyz": Format("XYZ", _whole(xyz.read), xyz.write, ("XYZ",)),
     ".npz": Format("NPZ", _whole(npz.read), npz.write, ("ZIP",), holds_fields=True),
 }
-
-
-def format_of(path: Path) -> Format:
-    """The format that the extension of `path` stands for, in upper or lower case; ShapeFileError if none does."""
-    known = FORMATS.get(path.suffix.lower())
-    if known is None:
-        named = f"the extension {path.suffix!r} is not supported" if path.suffix else "the name has no extension"
-        raise ShapeFileError(f"{named}. Supported are {', '.join(FORMATS)}.")
-    return known
 
 
 def extensions(*, holding_fields: bool = False) -> tuple[str, ...]:
