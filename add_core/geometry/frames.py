@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 from dataclasses import dataclass
 
 import numpy as np
@@ -10,6 +11,9 @@ from .._check import BoolArray, FloatArray, IntArray, read_only
 from .curvature import face_curvature_tensors
 from .direction_field import TangentBasis, fill_axes
 from .mesh import TriangleMesh
+from .orientation import orientation
+
+_log = logging.getLogger(__name__)
 
 TRUSTED = 0.1
 """Confidence below which a direction is taken from its neighbours."""
@@ -44,7 +48,8 @@ class PrincipalFrames:
 def principal_curvatures(shape: TriangleMesh) -> PrincipalFrames:
     """Principal frames per face of a mesh (Cohen-Steiner and Morvan 2003) or per point of a cloud (section 6).
 
-    Boundaries, several components and faces without area are allowed.
+    Boundaries, several components and faces without area are allowed. Faces turned against their neighbours are
+    taken the way most of their piece is turned, and a warning says so: θ would run the other way on them.
     """
     return _mesh_frames(shape)
 
@@ -90,6 +95,7 @@ def frames_from_tensors(
 
 
 def _mesh_frames(mesh: TriangleMesh) -> PrincipalFrames:
+    mesh = mesh if mesh.is_oriented else _agreeing(mesh)
     return frames_from_tensors(
         face_curvature_tensors(mesh),
         mesh.face_normals,
@@ -98,6 +104,24 @@ def _mesh_frames(mesh: TriangleMesh) -> PrincipalFrames:
         size=float(np.sqrt(mesh.area / (4 * np.pi))),
         usable=mesh.has_area,
     )
+
+
+def _agreeing(mesh: TriangleMesh) -> TriangleMesh:
+    """The same faces in the same order, none turned against its neighbours where that can be."""
+    found = orientation(mesh)
+    turned = found.disagreeing
+    if turned.any():
+        _log.warning(
+            "%d of %d faces of %r were turned to agree with their neighbours (first: %d).",
+            turned.sum(),
+            len(turned),
+            mesh,
+            turned.argmax(),
+        )
+    if found.one_sided.any():
+        _log.warning("%r has a piece with one side only, so the sense of θ jumps somewhere on it.", mesh)
+    faces = np.where(turned[:, None], mesh.faces[:, ::-1], mesh.faces)
+    return TriangleMesh(mesh.vertices, faces, mesh.name)
 
 
 def _confidence(mean: FloatArray, radius: FloatArray, max_curvature: FloatArray, size: float) -> FloatArray:

@@ -109,13 +109,18 @@ class TriangleMesh:
     @cached_property
     def edges(self) -> IntArray:
         """(e, 2): every edge once, its smaller vertex first, in lexicographic order."""
-        return read_only(np.unique(np.sort(self._half_edges, axis=1), axis=0))
+        return read_only(np.stack(np.divmod(self._edge_keys[0], self.vertex_count), axis=1))
 
     @cached_property
     def edge_face_counts(self) -> IntArray:
         """(e,): faces that share each of `edges`: 1 on a boundary, 2 inside, more where the mesh is no manifold."""
-        _, counts = np.unique(np.sort(self._half_edges, axis=1), axis=0, return_counts=True)
-        return read_only(counts.astype(np.int64))
+        return read_only(self._edge_keys[1])
+
+    @cached_property
+    def _edge_keys(self) -> tuple[IntArray, IntArray]:
+        low, high = np.sort(_half_edges(self.faces), axis=1).T
+        keys, counts = np.unique(low * self.vertex_count + high, return_counts=True)
+        return keys, counts.astype(np.int64)
 
     @cached_property
     def boundary_edges(self) -> IntArray:
@@ -126,7 +131,7 @@ class TriangleMesh:
     def inner_edges(self) -> InnerEdges:
         """Edges with exactly two faces of one orientation, both with area; the others have no angle."""
         usable = np.flatnonzero(self.has_area)
-        half = self.faces[usable][:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)
+        half = _half_edges(self.faces[usable])
         face = np.repeat(usable, 3)
         n = self.vertex_count
         keys, index, counts = np.unique(half @ [n, 1], return_index=True, return_counts=True)
@@ -153,6 +158,13 @@ class TriangleMesh:
         used[self.faces.ravel()] = True
         return read_only(used)
 
-    @property
-    def _half_edges(self) -> IntArray:
-        return self.faces[:, [1, 2, 2, 0, 0, 1]].reshape(-1, 2)
+    @cached_property
+    def is_oriented(self) -> bool:
+        """Whether no two faces with area run along an edge in the same sense, as on an oriented manifold."""
+        keys = _half_edges(self.faces[self.has_area]) @ [self.vertex_count, 1]
+        return len(np.unique(keys)) == len(keys)
+
+
+def _half_edges(faces: IntArray) -> IntArray:
+    """(3m, 2): the three sides of every face in its own sense, face by face."""
+    return faces[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)

@@ -196,6 +196,16 @@ def test_unreferenced_vertices_and_faces_without_area_take_no_part():
     assert after.mass[n] == 0
 
 
+def test_faces_turned_against_their_neighbours_change_nothing_and_are_reported(caplog):
+    mesh = ellipsoid(subdivisions=2)
+    faces = mesh.faces.copy()
+    faces[[3, 50, 51]] = faces[[3, 50, 51]][:, ::-1]
+    before = AnisotropicLaplacian(mesh, alpha=5.0).stiffness_values(0.6)
+    after = AnisotropicLaplacian(TriangleMesh(mesh.vertices, faces), alpha=5.0).stiffness_values(0.6)
+    assert_allclose(after, before, atol=1e-12)
+    assert "3 of 320 faces" in caplog.text
+
+
 def test_frames_of_another_shape_are_refused():
     with pytest.raises(GeometryError, match=r"frames must have one row for each of the 5120 faces, but they have 1280"):
         AnisotropicLaplacian(sphere(4), frames=principal_curvatures(sphere(3)))
