@@ -1,7 +1,8 @@
 """The family of anisotropic Laplacians of a shape."""
 
-from .anisotropic import AnisotropicLaplacian, Conductivity
+from .anisotropic import AnisotropicLaplacian
+from .diffusivity import CONDUCTIVITIES, Conductivity
 from .elements import Elements
 from .pattern import SparsityPattern
 
-__all__ = ["AnisotropicLaplacian", "Conductivity", "Elements", "SparsityPattern"]
+__all__ = ["CONDUCTIVITIES", "AnisotropicLaplacian", "Conductivity", "Elements", "SparsityPattern"]

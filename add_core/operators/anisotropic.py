@@ -2,20 +2,16 @@
 
 from __future__ import annotations
 
-import logging
-from typing import Literal, get_args
-
 import numpy as np
+from numpy.typing import ArrayLike
 from scipy.sparse import csr_array
 
 from .._check import FloatArray, at_least_zero, finite, one_of, read_only
-from ..errors import GeometryError
+from ..errors import GeometryError, ParameterError
 from ..geometry import PointCloud, PrincipalFrames, TriangleMesh, principal_curvatures
+from .diffusivity import CONDUCTIVITIES, Conductivity, Diffusivity
 from .elements import Elements, directional_parts
 from .pattern import SparsityPattern
-
-Conductivity = Literal["curvature", "constant"]
-_log = logging.getLogger(__name__)
 
 
 class AnisotropicLaplacian:
@@ -28,7 +24,8 @@ class AnisotropicLaplacian:
     conductivity : how heat runs along u_M and u_m, the directions of maximum and minimum curvature, at θ = 0.
         "curvature", eq. (9): ψ(κ_m) along u_M and ψ(κ_M) along u_m, ψ(x) = 1/(1 + α|x|);
         "constant", eq. (10): 1 along u_M and 1/(1 + α) along u_m.
-    frames : the shape's principal frames if they are known already, or frames of your own.
+    frames : the shape's principal frames if they are known already. `from_directions` and `from_tensors` take
+        fields of your own in place of the models.
 
     The discrete operator is S⁻¹W with `mass` S and `stiffness(theta)` W = W₀ + cos 2θ W_c + sin 2θ W_s: symmetric,
     positive SEMI-definite, with constants in its kernel. θ is in radians, counter-clockwise about the outward
@@ -38,6 +35,11 @@ class AnisotropicLaplacian:
     Raises GeometryError if the shape has no area, ParameterError if α or `conductivity` is out of range.
     """
 
+    alpha: float | None
+    """α of the model; None for a field of your own."""
+    conductivity: Conductivity | None
+    """Which model; None for a field of your own."""
+
     def __init__(
         self,
         shape: TriangleMesh | PointCloud,
@@ -46,55 +48,75 @@ class AnisotropicLaplacian:
         conductivity: Conductivity = "curvature",
         frames: PrincipalFrames | None = None,
     ) -> None:
-        at_least_zero("alpha", alpha)
-        one_of("conductivity", conductivity, get_args(Conductivity))
+        self.alpha = at_least_zero("alpha", alpha)
+        self.conductivity = _conductivity(conductivity)
         frames = principal_curvatures(shape) if frames is None else _frames_of(shape, frames)
-        elements = Elements.of(shape, frames)
-        if not len(elements.areas):
-            raise GeometryError(f"{shape!r} has no area, so no heat can run on it. Check its coordinates.")
-        pattern = SparsityPattern.of(elements.corners, shape.vertex_count)
-        mass = read_only(elements.masses(shape.vertex_count))
-        self._settle(shape, float(alpha), conductivity, frames, elements, pattern, mass)
+        self._discretise(shape, Diffusivity.of_model(frames, self.alpha, self.conductivity))
 
-    def _settle(
-        self,
-        shape: TriangleMesh | PointCloud,
-        alpha: float,
-        conductivity: Conductivity,
-        frames: PrincipalFrames,
-        elements: Elements,
-        pattern: SparsityPattern,
-        mass: FloatArray,
-    ) -> None:
-        self.shape, self.alpha, self.conductivity = shape, alpha, conductivity
-        self.frames, self.elements, self.pattern, self.mass = frames, elements, pattern, mass
-        along, across = self.conductivities()
-        parts = directional_parts(elements, along=along, across=across)
-        self._mean, self._cosine, self._sine = (pattern.gather(part) for part in parts)
+    @classmethod
+    def from_directions(
+        cls, shape: TriangleMesh | PointCloud, directions: ArrayLike, *, along: ArrayLike, across: ArrayLike
+    ) -> AnisotropicLaplacian:
+        """The operator with conductivity `along` the axes of your own `directions` and `across` them at θ = 0.
 
-    def with_alpha(self, alpha: float, *, conductivity: Conductivity | None = None) -> AnisotropicLaplacian:
-        """The same shape's operator at another α or conductivity model; frames and sparsity pattern are shared."""
-        conductivity = self.conductivity if conductivity is None else conductivity
-        at_least_zero("alpha", alpha)
-        one_of("conductivity", conductivity, get_args(Conductivity))
-        other = object.__new__(AnisotropicLaplacian)
-        other._settle(self.shape, float(alpha), conductivity, self.frames, self.elements, self.pattern, self.mass)
+        directions : (m, 3), one per face of a mesh or point of a cloud; only the tangential axis counts.
+        along, across : (m,) or one number, > 0, without unit.
+        Raises GeometryError for a direction without tangential part, ParameterError for a conductivity not positive.
+        """
+        frames = principal_curvatures(shape)
+        return cls._of(shape, Diffusivity.of_directions(frames, directions, along=along, across=across))
+
+    @classmethod
+    def from_tensors(cls, shape: TriangleMesh | PointCloud, tensors: ArrayLike) -> AnisotropicLaplacian:
+        """The operator with your own conductivity tensors at θ = 0; θ turns each about its normal.
+
+        tensors : (m, 3, 3), symmetric, one per face of a mesh or point of a cloud; their tangential part counts and
+            must be positive definite.
+        Raises GeometryError for a wrong shape, ParameterError for a tensor that is not symmetric and positive
+        definite.
+        """
+        return cls._of(shape, Diffusivity.of_tensors(principal_curvatures(shape), tensors))
+
+    @classmethod
+    def _of(cls, shape: TriangleMesh | PointCloud, diffusivity: Diffusivity) -> AnisotropicLaplacian:
+        other = object.__new__(cls)
+        other.alpha = other.conductivity = None
+        other._discretise(shape, diffusivity)
         return other
 
-    def conductivities(self) -> tuple[FloatArray, FloatArray]:
-        """Conductivity of each element along and across the turned axis u_M, each (t,), in (0, 1], without unit."""
+    def _discretise(self, shape: TriangleMesh | PointCloud, diffusivity: Diffusivity) -> None:
+        self.shape, self.frames = shape, diffusivity.frames
+        self.elements = Elements.of(shape, self.frames)
+        if not len(self.elements.areas):
+            raise GeometryError(f"{shape!r} has no area, so no heat can run on it. Check its coordinates.")
+        self.pattern = SparsityPattern.of(self.elements.corners, shape.vertex_count)
+        self.mass = read_only(self.elements.masses(shape.vertex_count))
+        self._assemble(diffusivity)
+
+    def _assemble(self, diffusivity: Diffusivity) -> None:
         rows = self.elements.frames
-        if self.conductivity == "constant":
-            return np.ones(len(rows)), np.full(len(rows), 1 / (1 + self.alpha))
-        along = 1 / (1 + self.alpha * np.abs(self.frames.min_curvature[rows]))
-        across = 1 / (1 + self.alpha * np.abs(self.frames.max_curvature[rows]))
-        return along, across
+        self._along, self._across = diffusivity.along[rows], diffusivity.across[rows]
+        parts = directional_parts(self.elements, along=self._along, across=self._across)
+        self._mean, self._cosine, self._sine = (self.pattern.gather(part) for part in parts)
+
+    def with_alpha(self, alpha: float, *, conductivity: Conductivity | None = None) -> AnisotropicLaplacian:
+        """The same shape's operator at another α or of the other model; elements and sparsity pattern are shared.
+
+        Raises ParameterError if an argument is out of range or the operator has a field of its own in place of a
+        model.
+        """
+        if self.conductivity is None:
+            raise ParameterError("alpha belongs to the two models, but this operator has a field of its own.")
+        other = object.__new__(AnisotropicLaplacian)
+        other.__dict__.update(self.__dict__)
+        other.alpha = at_least_zero("alpha", alpha)
+        other.conductivity = _conductivity(self.conductivity if conductivity is None else conductivity)
+        other._assemble(Diffusivity.of_model(self.frames, other.alpha, other.conductivity))
+        return other
 
     def stiffness_values(self, theta: float) -> FloatArray:
         """Entries (nnz,) of W(θ) on `pattern`."""
         finite("theta", theta)
-        if self.alpha == 0:
-            return self._mean.copy()
         return np.asarray(self._mean + np.cos(2 * theta) * self._cosine + np.sin(2 * theta) * self._sine)
 
     def stiffness(self, theta: float = 0.0) -> csr_array:
@@ -106,8 +128,12 @@ class AnisotropicLaplacian:
 
     def weyl_eigenvalue(self, index: int) -> float:
         """Weyl's estimate of λ_index, 1/length²: 4π·index / Σ area/√(along·across), the same for every θ."""
-        along, across = self.conductivities()
-        return float(4 * np.pi * index / np.sum(self.elements.weighted_areas / np.sqrt(along * across)))
+        return float(4 * np.pi * index / np.sum(self.elements.weighted_areas / np.sqrt(self._along * self._across)))
+
+
+def _conductivity(value: Conductivity) -> Conductivity:
+    one_of("conductivity", value, CONDUCTIVITIES)
+    return value
 
 
 def _frames_of(shape: TriangleMesh | PointCloud, frames: PrincipalFrames) -> PrincipalFrames:

@@ -227,3 +227,66 @@ def test_parameters_out_of_range_are_explained(options, message):
 def test_a_shape_without_area_is_refused():
     with pytest.raises(GeometryError, match="has no area"):
         AnisotropicLaplacian(TriangleMesh(np.zeros((3, 3)), [[0, 1, 2]]))
+
+
+@pytest.mark.parametrize("theta", [0.0, 0.7])
+def test_a_direction_field_of_your_own_takes_the_place_of_the_models(theta):
+    """Heat along x on a flat mesh, twice as readily as across; what sticks out of the surface is ignored."""
+    mesh = rectangle(2.0, 3.0, n=5)
+    directions = np.tile([1.0, 0.0, 5.0], (len(mesh.faces), 1))
+    laplacian = AnisotropicLaplacian.from_directions(mesh, directions, along=1.0, across=0.5)
+    u = mesh.vertices[:, 0]
+    assert_allclose(u @ laplacian.stiffness(theta) @ u, 6 * (np.cos(theta) ** 2 + 0.5 * np.sin(theta) ** 2))
+
+
+@pytest.mark.parametrize("theta", [0.0, 0.7])
+def test_a_tensor_field_of_your_own_takes_the_place_of_the_models(theta):
+    mesh = rectangle(2.0, 3.0, n=5)
+    tensor = np.array([[0.9, 0.3, 0.2], [0.3, 0.5, 0.1], [0.2, 0.1, 7.0]])
+    laplacian = AnisotropicLaplacian.from_tensors(mesh, np.tile(tensor, (len(mesh.faces), 1, 1)))
+    turn = np.array([[np.cos(theta), -np.sin(theta)], [np.sin(theta), np.cos(theta)]])
+    g = np.array([0.8, -0.3])
+    u = mesh.vertices[:, :2] @ g
+    assert_allclose(u @ laplacian.stiffness(theta) @ u, 6 * g @ turn @ tensor[:2, :2] @ turn.T @ g)
+
+
+def test_the_models_are_tensor_fields():
+    mesh = ellipsoid(subdivisions=2)
+    frames, alpha = principal_curvatures(mesh), 4.0
+    along, across = 1 / (1 + alpha * np.abs(frames.min_curvature)), 1 / (1 + alpha * np.abs(frames.max_curvature))
+    t, s = frames.max_direction, frames.min_direction
+    tensors = along[:, None, None] * t[:, :, None] * t[:, None] + across[:, None, None] * s[:, :, None] * s[:, None]
+    own, model = AnisotropicLaplacian.from_tensors(mesh, tensors), AnisotropicLaplacian(mesh, alpha=alpha)
+    assert_allclose(own.stiffness_values(0.4), model.stiffness_values(0.4), atol=1e-12)
+
+
+def upper_triangles(m):
+    return np.tile(np.triu(np.ones((3, 3))), (m, 1, 1))
+
+
+@pytest.mark.parametrize(
+    ("field", "options", "error", "message"),
+    [
+        (lambda m: np.ones((3, 3)), {"along": 1, "across": 1}, GeometryError, "directions must have shape"),
+        (lambda m: m.face_normals, {"along": 1, "across": 1}, GeometryError, "a tangential part, but 80 of 80"),
+        (lambda m: m.opposite_edges[:, 0], {"along": 0, "across": 1}, ParameterError, "along must be greater than 0"),
+        (
+            lambda m: -np.tile(np.eye(3), (80, 1, 1)),
+            {},
+            ParameterError,
+            "positive definite in the tangent plane, but 80",
+        ),
+        (lambda m: upper_triangles(80), {}, ParameterError, "tensors must be symmetric"),
+    ],
+)
+def test_unusable_fields_are_explained(field, options, error, message):
+    mesh = sphere(1)
+    build = AnisotropicLaplacian.from_directions if options else AnisotropicLaplacian.from_tensors
+    with pytest.raises(error, match=message):
+        build(mesh, field(mesh), **options)
+
+
+def test_a_field_of_your_own_has_no_alpha():
+    laplacian = AnisotropicLaplacian.from_tensors(sphere(1), np.tile(np.eye(3), (80, 1, 1)))
+    with pytest.raises(ParameterError, match="a field of its own"):
+        laplacian.with_alpha(3.0)

@@ -125,7 +125,7 @@ def test_anisotropic_signatures_of_a_mirror_image_run_backwards(mesh, family):
     here = anisotropic_heat_kernel_signature(family, times)
     there = anisotropic_heat_kernel_signature(mirrored, times)
     assert_allclose(there[:, [0, 1, 4, 3, 2]], here, rtol=1e-5)
-    assert np.abs(there[:, 2] - here[:, 2]).max() > 0.05 * here.max()
+    assert np.abs(there[:, 2] - here[:, 2]).max() > 1e-2 * here.max()
 
 
 def test_splines_are_a_partition_of_unity_with_local_support():
