@@ -16,7 +16,7 @@ SKIN = (0.862, 0.845, 0.822)
 """Uncoloured shapes and the low end of every kernel map: no heat looks like bare skin."""
 
 MARKERS: tuple[tuple[float, float, float], ...] = (
-    (0.000, 0.447, 0.698),
+    (0.090, 0.500, 0.800),
     (0.835, 0.369, 0.000),
     (0.000, 0.620, 0.451),
     (0.800, 0.475, 0.655),
@@ -25,7 +25,7 @@ MARKERS: tuple[tuple[float, float, float], ...] = (
     (0.560, 0.330, 0.190),
     (0.420, 0.420, 0.440),
 )
-"""One for each of eight picked points; the first six are Okabe and Ito's, which colour-blind readers tell apart."""
+"""One for each of eight picked points; after Okabe and Ito, so that colour-blind readers tell them apart, and bright enough for light and dark."""
 
 _LMS_FROM_LAB = np.array(
     [[1.0, 0.3963377774, 0.2158037573], [1.0, -0.1055613458, -0.0638541728], [1.0, -0.0894841775, -1.2914855480]]

@@ -8,7 +8,7 @@ from typing import Any
 
 CONDUCTIVITIES = ("curvature", "constant")
 ALPHA_MAX = 200.0
-REACH_MIN, REACH_MAX = 2e-3, 20.0
+REACH_MIN, REACH_MAX = 2e-3, 5.0
 
 
 @dataclass(frozen=True)
@@ -18,14 +18,14 @@ class Diffusion:
     conductivity : "curvature", eq. (9), or "constant", eq. (10).
     alpha : degree of anisotropy, 0 to 200; 0 is isotropic.
     theta : radians in [0, π), counter-clockwise about the outward normal from the direction of maximum curvature.
-    reach : t·λ₁, time in units of the operator's own scale (λ₁ by Weyl's law), 0.002 (local) to 20 (global).
+    reach : t·λ₁, time in units of the operator's own scale (λ₁ by Weyl's law), 0.002 (local) to 5 (global).
         Time itself follows: t = reach / λ₁. A larger α slows heat; a constant reach keeps the picture comparable.
     """
 
     conductivity: str = "curvature"
     alpha: float = 50.0
     theta: float = 0.0
-    reach: float = 0.2
+    reach: float = 0.03
 
     def with_changes(self, **changes: Any) -> Diffusion:
         """The same with `changes`, brought into range; numbers that are not finite are ignored."""

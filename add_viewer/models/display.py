@@ -7,7 +7,7 @@ from typing import Any
 from psygnal import Signal
 
 THEMES = ("system", "light", "dark")
-KERNEL_SCALES = ("log", "linear")
+KERNEL_SCALES = ("linear", "log")
 UP_AXES = ("auto", "+y", "+z")
 
 _CHOICES = {"theme": THEMES, "kernel_scale": KERNEL_SCALES, "up_axis": UP_AXES}

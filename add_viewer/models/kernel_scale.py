@@ -43,10 +43,6 @@ class KernelScale:
 
 
 def _number(value: float) -> str:
-    return (
-        f"{value:.2g}"
-        if value == 0 or 1e-3 <= abs(value) < 1e3
-        else f"{value:.0f}"
-        if value < 1e5 and value > 1
-        else f"{value:.1e}"
-    )
+    """Two significant digits, as a person would write them: 170, 0.091, 3.2e-05."""
+    rounded = float(f"{value:.1e}")
+    return f"{rounded:g}"

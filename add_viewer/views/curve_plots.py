@@ -66,7 +66,7 @@ class CurvePlots:
         for axes in self.all_axes:
             axes.clear()
             _style(axes, scene.theme)
-        self.figure.set_facecolor(scene.theme.panel)
+        self.figure.set_facecolor(scene.theme.window)
         self._static_theta(scene)
         self._static_polar(scene)
         self._static_time(scene)
@@ -76,7 +76,7 @@ class CurvePlots:
         axes.set_xlim(0, 180)
         axes.set_xticks([0, 45, 90, 135, 180], ["0°", "45°", "90°", "135°", "180°"])
         axes.set_xlabel("direction θ", labelpad=1)
-        axes.set_title("AHKS over θ" + (", ÷ mean" if scene.relative else ", 1/⌀²"), loc="left")
+        axes.set_title("AHKS over θ" + (", ÷ mean" if scene.relative else ", 1/⌀²"), loc="left", fontsize=9, color=scene.theme.text, pad=4)
         low, high = _theta_limits(scene)
         axes.set_yscale("linear" if scene.relative else "log")
         axes.set_ylim(low, high)
@@ -97,7 +97,7 @@ class CurvePlots:
         axes.set_yscale("log")
         axes.set_xlim(REACH_MIN / scale, REACH_MAX / scale)
         axes.set_xlabel("time t in ⌀²", labelpad=1)
-        axes.set_title("Heat left h(x, x) over t, 1/⌀²", loc="left")
+        axes.set_title("Heat left h(x, x) over t, 1/⌀²", loc="left", fontsize=9, color=scene.theme.text, pad=4)
         values = [row for each in scene.shown for row in (each.values, each.isotropic) if row is not None]
         if values:
             axes.set_ylim(0.6 * min(v.min() for v in values), 1.6 * max(v.max() for v in values))
@@ -175,8 +175,6 @@ def _style(axes: Axes, theme: Theme) -> None:
         spine.set_color(theme.line)
     axes.xaxis.label.set(color=theme.muted, size=8)
     axes.yaxis.label.set(color=theme.muted, size=8)
-    axes.title.set(color=theme.text, size=9)
-    axes._left_title.set(color=theme.text, size=9)  # type: ignore[attr-defined]
 
 
 def _shares(scene: CurveScene) -> list[FloatArray]:

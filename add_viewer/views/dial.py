@@ -52,7 +52,7 @@ class ThetaDial(QWidget):
         self.setAccessibleName("Direction θ dial")
 
     def sizeHint(self) -> QSize:
-        return QSize(264, 168)
+        return QSize(264, 184)
 
     def show_theta(self, theta: float) -> None:
         """Turn the pointer without announcing it."""
@@ -69,7 +69,7 @@ class ThetaDial(QWidget):
 
     @property
     def _radius(self) -> float:
-        return min(self.width(), self.height()) / 2 - 22.0
+        return min(self.width(), self.height()) / 2 - 26.0
 
     def _turn(self, theta: float) -> None:
         self.turned.emit(theta % pi)

@@ -59,14 +59,15 @@ class MainWindow(QMainWindow):
         self.message = MessageBar()
         self.parameters = ParameterPanel(session, results)
         self.curves = CurvePanel(session, results)
+        self._hidden_docks: list[QDockWidget] | None = None
         self._build()
         self._connect()
         self._show_theme()
         self._show_recent()
-        self._show_active()
-        self._show_history()
         if not settings.restore_window(self):
             self.resize(1440, 900)
+        self._show_active()
+        self._show_history()
 
     # -- building -----------------------------------------------------------------------------------------------------
 
@@ -133,7 +134,7 @@ class MainWindow(QMainWindow):
         self.menus.on("pick_mirror", self._pick_mirror)
         self.menus.on("go_to", self._go_to)
         self.menus.on("play", self.parameters.play.toggle)
-        self.menus.on("start", lambda: self.pages.setCurrentWidget(self.start))
+        self.menus.on("start", self.show_start)
         self.menus.on("close", self._close_shape)
         self.menus.on("quit", self.close)
 
@@ -147,8 +148,24 @@ class MainWindow(QMainWindow):
         self.parameters.play.setChecked(False)
         for name in ("close", "screenshot", "go_to", "fit", "play", "front", "back", "left", "right", "top"):
             self.menus.actions[name].setEnabled(shape is not None)
-        docks = shape is not None
-        self.parameter_dock.widget().setEnabled(docks)
+        self._show_docks(shape is not None and self.pages.currentWidget() is self.view)
+
+    def _show_docks(self, on: bool) -> None:
+        """The panels belong to a shape: the start page does without, and they come back as they were."""
+        if on and self._hidden_docks is not None:
+            for dock in self._hidden_docks:
+                dock.show()
+            self._hidden_docks = None
+        elif not on and self._hidden_docks is None:
+            docks = (self.parameter_dock, self.curve_dock)
+            self._hidden_docks = [dock for dock in docks if not dock.isHidden()]
+            for dock in docks:
+                dock.hide()
+
+    def show_start(self) -> None:
+        """Offer shapes to open; the session stays as it is."""
+        self.pages.setCurrentWidget(self.start)
+        self._show_docks(False)
 
     def _show_history(self) -> None:
         picks = self.session.state.active_picks
@@ -257,6 +274,7 @@ class MainWindow(QMainWindow):
 
     def closeEvent(self, event: QCloseEvent) -> None:
         self.parameters.play.setChecked(False)
+        self._show_docks(True)
         self.settings.keep_window(self)
         self.view.canvas.close()  # VTK must let go of the graphics context while it still exists
         super().closeEvent(event)

@@ -68,7 +68,7 @@ SWITCHES = (
 )
 CHOICES = {
     "theme": ("&Theme", {"system": "As the &system", "light": "&Light", "dark": "&Dark"}),
-    "kernel_scale": ("Colour &scale", {"log": "Lo&garithmic, two decades", "linear": "&Linear"}),
+    "kernel_scale": ("Colour &scale", {"linear": "&Linear", "log": "Lo&garithmic, two decades"}),
     "up_axis": ("&Up axis", {"auto": "&Automatic", "+y": "&Y", "+z": "&Z"}),
 }
 

@@ -48,7 +48,7 @@ class ColourBar(Overlay):
     """What the colours mean: quantity, unit, scale."""
 
     def __init__(self, parent: QWidget) -> None:
-        super().__init__(parent, QSize(152, 232))
+        super().__init__(parent, QSize(208, 232))
         self._title, self._lines, self._ticks = "", ("", ""), list[tuple[float, str]]()
 
     def show_scale(self, title: str, lines: tuple[str, str], ticks: list[tuple[float, str]]) -> None:

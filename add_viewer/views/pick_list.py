@@ -54,6 +54,7 @@ class PickList(QWidget):
         column.setSpacing(GRID)
         column.addLayout(top)
         self._chip_grid.setSpacing(GRID // 2)
+        self._chip_grid.setColumnStretch(_COLUMNS, 1)
         column.addLayout(self._chip_grid)
 
     def _typed(self, value: float) -> None:

@@ -122,10 +122,10 @@ QMenu::item:disabled {{ color: {theme.muted}; }}
 QMenu::separator {{ height: 1px; background: {theme.line}; margin: 4px 8px; }}
 QStatusBar {{ background: {theme.window}; border-top: 1px solid {theme.line}; color: {theme.muted}; }}
 QStatusBar::item {{ border: none; }}
-QLineEdit, QComboBox {{ background: {theme.field}; border: 1px solid {theme.line}; border-radius: 4px; padding: 3px 6px;
+QLineEdit {{ background: {theme.field}; border: 1px solid {theme.line}; border-radius: 4px; padding: 3px 6px;
     min-height: 18px; selection-background-color: {theme.accent}; selection-color: {theme.on_accent}; }}
-QLineEdit:focus, QComboBox:focus {{ border: 1px solid {theme.accent}; }}
-QComboBox::drop-down {{ border: none; width: 20px; }}
+QLineEdit:focus {{ border: 1px solid {theme.accent}; }}
+QComboBox {{ min-height: 22px; }}
 QPushButton, QToolButton {{ background: {theme.panel}; border: 1px solid {theme.line}; border-radius: 4px;
     padding: 4px 10px; min-height: 18px; }}
 QToolButton {{ padding: 4px; }}
@@ -140,6 +140,13 @@ QToolTip {{ background: {theme.panel}; color: {theme.text}; border: 1px solid {t
 QLabel[role="muted"] {{ color: {theme.muted}; }}
 QLabel[role="heading"] {{ font-weight: 600; }}
 QScrollArea, QListView {{ border: none; background: transparent; }}
+QScrollBar {{ background: transparent; border: none; margin: 0; }}
+QScrollBar:vertical {{ width: 10px; }}
+QScrollBar:horizontal {{ height: 10px; }}
+QScrollBar::handle {{ background: {theme.line}; border-radius: 4px; margin: 1px; min-height: 32px; min-width: 32px; }}
+QScrollBar::handle:hover {{ background: {theme.muted}; }}
+QScrollBar::add-line, QScrollBar::sub-line {{ width: 0; height: 0; }}
+QScrollBar::add-page, QScrollBar::sub-page {{ background: transparent; }}
 QProgressBar {{ border: none; border-radius: 2px; background: {theme.line}; max-height: 4px; }}
 QProgressBar::chunk {{ background: {theme.accent}; border-radius: 2px; }}
 """

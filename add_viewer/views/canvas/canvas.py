@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
+
 import numpy as np
 import pyvista as pv
 from numpy.typing import NDArray
 from PySide6.QtCore import QEvent, QPoint, QPointF, Qt, Signal
 from PySide6.QtGui import QImage, QMouseEvent, QResizeEvent, QWheelEvent
 from PySide6.QtWidgets import QApplication
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkRenderingCore import vtkWindowToImageFilter
 
 from ...models.picks import Pick
 from ...models.results import DirectionField
@@ -65,6 +70,7 @@ class Canvas(View3D):
             self.renderer.AddActor(self._body.actor)
             self.camera_model.orient(up, front)
             self.look("front")
+            self._step_aside(opened.shape)
         self.update()
 
     def show_field(self, position: FloatArray | None) -> None:
@@ -107,6 +113,13 @@ class Canvas(View3D):
         """Soft background, a little lighter at the top."""
         self.set_background(theme.canvas_bottom, top=theme.canvas_top)
         self.update()
+
+    def _step_aside(self, shape: Shape) -> None:
+        """A shape much deeper than wide shows little of itself from the front: look at it from three quarters."""
+        width, _, depth = np.ptp(shape.vertices @ self.camera_model.axes.T, axis=0)
+        if depth > 1.5 * width:
+            self.camera_model.azimuth = 55.0
+            self.fit()
 
     @property
     def shown(self) -> Shape | None:
@@ -250,12 +263,51 @@ class Canvas(View3D):
         """The scene alone at `scale` times the widget's size in device-independent pixels."""
         self.grabFramebuffer()  # a hidden or stale widget paints first
         factor = max(1, round(scale / self.devicePixelRatioF()))
-        pixels = np.ascontiguousarray(
-            self.screenshot(return_img=True, scale=factor, transparent_background=transparent)
-        )
-        height, width, channels = pixels.shape
-        kind = QImage.Format.Format_RGBA8888 if channels == 4 else QImage.Format.Format_RGB888
-        return QImage(pixels.data, width, height, channels * width, kind).copy()
+        with self._fine_render(transparent=transparent):
+            pixels = self._read_pixels(factor)
+        height, width, _ = pixels.shape
+        image = QImage(pixels.data, width, height, 4 * width, QImage.Format.Format_RGBA8888_Premultiplied)
+        return image.convertToFormat(QImage.Format.Format_ARGB32)
+
+    @contextmanager
+    def _fine_render(self, *, transparent: bool) -> Iterator[None]:
+        """Smooth edges from many samples, too slow for live pictures; black behind, so that edges come premultiplied."""
+        renderer, window = self.renderer, self.render_window
+        kept = renderer.GetBackground(), renderer.GetGradientBackground(), window.GetMultiSamples()
+        self.disable_anti_aliasing()
+        window.SetMultiSamples(8)
+        window.SetAlphaBitPlanes(1)
+        if transparent:
+            renderer.SetGradientBackground(False)
+            renderer.SetBackground(0.0, 0.0, 0.0)
+            renderer.SetBackgroundAlpha(0.0)
+        else:
+            renderer.SetBackgroundAlpha(1.0)
+        self._Iren.EnableRenderOn()
+        try:
+            yield
+        finally:
+            self._Iren.EnableRenderOff()
+            renderer.SetBackground(kept[0])
+            renderer.SetGradientBackground(kept[1])
+            renderer.SetBackgroundAlpha(1.0)
+            window.SetMultiSamples(kept[2])
+            self.enable_anti_aliasing("fxaa")
+            self.update()
+
+    def _read_pixels(self, factor: int) -> NDArray[np.uint8]:
+        """(height, width, 4) of a fresh render, `factor` times as fine as the widget."""
+        self.render_window.MakeCurrent()
+        grab = vtkWindowToImageFilter()
+        grab.SetInput(self.render_window)
+        grab.SetScale(factor)
+        grab.SetInputBufferTypeToRGBA()
+        grab.ReadFrontBufferOff()
+        grab.Update()
+        image = grab.GetOutput()
+        width, height, _ = image.GetDimensions()
+        pixels = vtk_to_numpy(image.GetPointData().GetScalars()).reshape(height, width, 4)
+        return np.ascontiguousarray(pixels[::-1])
 
     def _remove(self, actors: list[pv.Actor]) -> None:
         for actor in actors:
@@ -268,6 +320,6 @@ def _normals(shape: Shape) -> FloatArray | None:
 
 def _add_lights(view: View3D) -> None:
     """A gentle key from the upper left and a weak fill from the right; both move with the eye, so no side is ever black."""
-    for place, intensity in (((-0.55, 0.75, 1.0), 0.78), ((0.9, -0.1, 0.6), 0.26), ((0.0, 0.2, 1.0), 0.16)):
+    for place, intensity in (((-0.5, 0.7, 1.0), 0.66), ((1.0, 0.1, 0.5), 0.30), ((0.0, 0.0, 1.0), 0.26)):
         light = pv.Light(position=place, focal_point=(0, 0, 0), light_type="camera light", intensity=intensity)
         view.add_light(light)

@@ -13,7 +13,7 @@ from ...models.results import DirectionField
 FloatArray = NDArray[np.float64]
 
 _WHITE = (1.0, 1.0, 1.0)
-_BALL, _RIM = 0.0105, 0.0032
+_BALL = 0.0095
 _NEEDLE_WIDTH, _NEEDLE_LENGTH, _NEEDLE_LIFT = 0.11, 0.78, 0.0022
 
 
@@ -21,16 +21,14 @@ def marker_actors(picks: tuple[Pick, ...], vertices: FloatArray, normals: FloatA
     """A ball for each pick and a ring for each mirror point, both rimmed in white so that they show on any colour."""
     actors = []
     for pick in picks:
-        place = vertices[pick.vertex]
-        colour = MARKERS[pick.slot]
+        normal = np.array([0.0, 0.0, 1.0]) if normals is None else normals[pick.vertex]
+        place, colour = vertices[pick.vertex], MARKERS[pick.slot]
         if pick.is_mirror:
-            normal = np.array([0.0, 0.0, 1.0]) if normals is None else normals[pick.vertex]
-            lifted = place + 0.6 * _BALL * normal
-            actors += [_ring(lifted, normal, 0.0042, _WHITE), _ring(lifted + 0.0016 * normal, normal, 0.0029, colour)]
+            actors.append(_ring(place + 0.35 * _BALL * normal, normal, 1.25 * _BALL, 0.0036, _WHITE))
+            actors.append(_ring(place + 0.60 * _BALL * normal, normal, 1.25 * _BALL, 0.0024, colour))
         else:
-            rim = _ball(place, _BALL + _RIM, _WHITE)
-            rim.prop.culling = "front"  # only the far half shows: an outline
-            actors += [_ball(place, _BALL, colour), rim]
+            actors.append(_ring(place + 0.45 * _BALL * normal, normal, 1.0 * _BALL, 0.0028, _WHITE))
+            actors.append(_ball(place + 0.55 * _BALL * normal, _BALL, colour))
     return actors
 
 
@@ -38,8 +36,10 @@ def _ball(place: FloatArray, radius: float, colour: tuple[float, float, float]) 
     return _flat_actor(pv.Sphere(radius=radius, center=place, theta_resolution=24, phi_resolution=16), colour)
 
 
-def _ring(place: FloatArray, normal: FloatArray, thickness: float, colour: tuple[float, float, float]) -> pv.Actor:
-    ring = pv.ParametricTorus(ringradius=1.35 * _BALL, crosssectionradius=thickness, u_res=40, v_res=12, w_res=12)
+def _ring(
+    place: FloatArray, normal: FloatArray, radius: float, thickness: float, colour: tuple[float, float, float]
+) -> pv.Actor:
+    ring = pv.ParametricTorus(ringradius=radius, crosssectionradius=thickness, u_res=40, v_res=12, w_res=12)
     frame = np.eye(4)
     frame[:3, :3], frame[:3, 3] = _frame(normal), place
     return _flat_actor(ring.transform(frame, inplace=False), colour)

@@ -53,7 +53,7 @@ class Surface:
         mapper.SetInterpolateScalarsBeforeMapping(True)
         actor = pv.Actor(mapper=mapper)
         prop = actor.prop
-        prop.ambient, prop.diffuse, prop.specular, prop.specular_power = 0.22, 0.80, 0.06, 18.0
+        prop.ambient, prop.diffuse, prop.specular, prop.specular_power = 0.34, 0.70, 0.05, 16.0
         if isinstance(self.shape, TriangleMesh):
             prop.interpolation = "Phong"
         else:
