@@ -43,10 +43,11 @@ def _print(title: str, report: ShapeReport) -> None:
     from rich.table import Table
     from rich.text import Text
 
-    table = Table(title=Text(title, style="bold"), title_justify="left", show_header=False, box=None, pad_edge=False)
+    table = Table(show_header=False, box=None, pad_edge=False)
     for quantity, value in _rows(report):
         table.add_row(Text(quantity, style="dim"), Text(value))
     console = Console(highlight=False)
+    console.print(Text(title, style="bold"), soft_wrap=True)
     console.print(table)
     for defect in report.defects:
         console.print(Text(f"! {defect}", style="yellow"), soft_wrap=True)

@@ -39,8 +39,7 @@ def write(shape: Shape, fields: Fields) -> bytes:
 
 def merged_corners(corners: NDArray[np.floating]) -> tuple[NDArray[np.floating], IntArray]:
     """Vertices (n, 3) in order of first appearance, and faces (m, 3), from corners (3m, 3)."""
-    with np.errstate(invalid="ignore"):  # noise may hold NaN, which the shape will complain about
-        rows = np.ascontiguousarray(corners + 0.0)  # -0.0 becomes 0.0, which has other bits
+    rows = np.ascontiguousarray(corners + 0.0)  # -0.0 becomes 0.0, which has other bits
     keys = rows.view(np.dtype((np.void, rows.dtype.itemsize * 3))).ravel()
     _, first, inverse = np.unique(keys, return_index=True, return_inverse=True)
     order = np.argsort(first)
