@@ -10,10 +10,11 @@ from .mesh import TriangleMesh
 
 def sphere(subdivisions: int = 4, *, radius: float = 1.0) -> TriangleMesh:
     """Icosphere with 10·4^s + 2 vertices, normals outward. Laplacian eigenvalues: l(l+1)/r², each 2l+1 times."""
-    vertices, faces = _icosahedron()
+    ball = TriangleMesh(*_icosahedron())
     for _ in range(count_in("subdivisions", subdivisions, 0, 9)):
-        vertices, faces = _split_in_four(vertices, faces)
-    return TriangleMesh(radius * vertices, faces, "sphere")
+        ball = split_in_four(ball)
+        ball = TriangleMesh(ball.vertices / np.linalg.norm(ball.vertices, axis=1, keepdims=True), ball.faces)
+    return TriangleMesh(radius * ball.vertices, ball.faces, "sphere")
 
 
 def ellipsoid(a: float = 1.0, b: float = 0.8, c: float = 0.6, *, subdivisions: int = 4) -> TriangleMesh:
@@ -56,6 +57,18 @@ def rectangle(width: float = 1.0, height: float = 1.0, *, n: int = 16) -> Triang
     return TriangleMesh(vertices, _grid_faces(rows, columns, wrap_rows=False, wrap_columns=False), "rectangle")
 
 
+def split_in_four(mesh: TriangleMesh) -> TriangleMesh:
+    """The same surface with every face split at its edges' midpoints; the old vertices keep their numbers."""
+    edges, inverse = np.unique(
+        np.sort(mesh.faces[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1), axis=0, return_inverse=True
+    )
+    ab, bc, ca = (mesh.vertex_count + inverse.reshape(-1, 3)).T
+    a, b, c = mesh.faces.T
+    corners = [(a, ab, ca), (b, bc, ab), (c, ca, bc), (ab, bc, ca)]
+    vertices = np.concatenate([mesh.vertices, mesh.vertices[edges].mean(axis=1)])
+    return TriangleMesh(vertices, np.concatenate([np.stack(f, axis=1) for f in corners]), mesh.name)
+
+
 def _icosahedron() -> tuple[FloatArray, IntArray]:
     g = (1 + np.sqrt(5)) / 2
     vertices = [(-1, g, 0), (1, g, 0), (-1, -g, 0), (1, -g, 0), (0, -1, g), (0, 1, g)]
@@ -64,17 +77,6 @@ def _icosahedron() -> tuple[FloatArray, IntArray]:
     faces += [(7, 1, 8), (3, 9, 4), (3, 4, 2), (3, 2, 6), (3, 6, 8), (3, 8, 9), (4, 9, 5), (2, 4, 11), (6, 2, 10)]
     faces += [(8, 6, 7), (9, 8, 1)]
     return np.array(vertices) / np.sqrt(1 + g * g), np.array(faces)
-
-
-def _split_in_four(vertices: FloatArray, faces: IntArray) -> tuple[FloatArray, IntArray]:
-    sides = np.sort(faces[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
-    edges, inverse = np.unique(sides, axis=0, return_inverse=True)
-    middle = vertices[edges].sum(axis=1)
-    middle /= np.linalg.norm(middle, axis=1, keepdims=True)
-    ab, bc, ca = (len(vertices) + inverse.reshape(-1, 3)).T
-    a, b, c = faces.T
-    corners = [(a, ab, ca), (b, bc, ab), (c, ca, bc), (ab, bc, ca)]
-    return np.concatenate([vertices, middle]), np.concatenate([np.stack(f, axis=1) for f in corners])
 
 
 def _grid_faces(rows: int, columns: int, *, wrap_rows: bool, wrap_columns: bool) -> IntArray:

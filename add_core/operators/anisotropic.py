@@ -91,13 +91,15 @@ class AnisotropicLaplacian:
             raise GeometryError(f"{shape!r} has no area, so no heat can run on it. Check its coordinates.")
         self.pattern = SparsityPattern.of(self.elements.corners, shape.vertex_count)
         self.mass = read_only(self.elements.masses(shape.vertex_count))
+        self._assemblies = [self.pattern.assembly(part) for part in directional_parts(self.elements)]
         self._assemble(diffusivity)
 
     def _assemble(self, diffusivity: Diffusivity) -> None:
         rows = self.elements.frames
         self._along, self._across = diffusivity.along[rows], diffusivity.across[rows]
-        parts = directional_parts(self.elements, along=self._along, across=self._across)
-        self._mean, self._cosine, self._sine = (self.pattern.gather(part) for part in parts)
+        mean, half = (self._along + self._across) / 2, (self._along - self._across) / 2
+        isotropic, cosine, sine = self._assemblies
+        self._mean, self._cosine, self._sine = isotropic @ mean, cosine @ half, sine @ half
 
     def with_alpha(self, alpha: float, *, conductivity: Conductivity | None = None) -> AnisotropicLaplacian:
         """The same shape's operator at another α or of the other model; elements and sparsity pattern are shared.

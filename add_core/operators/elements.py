@@ -44,23 +44,19 @@ class Elements:
         return np.bincount(self.corners.ravel(), share, vertex_count).astype(np.float64)
 
 
-def directional_parts(
-    elements: Elements, *, along: FloatArray, across: FloatArray
-) -> tuple[FloatArray, FloatArray, FloatArray]:
-    r"""Element matrices W₀, W_c, W_s, each (t, 3, 3), with :math:`W(θ) = W_0 + \cos 2θ\, W_c + \sin 2θ\, W_s`.
+def directional_parts(elements: Elements) -> tuple[FloatArray, FloatArray, FloatArray]:
+    r"""Element matrices I, C, S, each (t, 3, 3), of which every conductivity and angle is made.
 
-    W(θ) holds area · ∇φ_i · D(θ) ∇φ_j for D(θ) = along · t tᵀ + across · s sᵀ, where t is u_M turned by θ
-    counter-clockwise about the normal and s = n × t. along, across : (t,), without unit.
+    area · ∇φ_i · D(θ) ∇φ_j = (a + b)/2 · I + (a − b)/2 · (cos 2θ · C + sin 2θ · S) for D(θ) = a t tᵀ + b s sᵀ,
+    where t is u_M turned by θ counter-clockwise about the normal and s = n × t.
     """
-    # A hat function's gradient is the opposite edge turned by 90°: ∇φ = (−q u_M + p u_m)/(2A) for an edge p u_M + q
-    # u_m. Eq. (24) writes D between the edges themselves, which taken literally exchanges `along` and `across`.
+    # A hat function's gradient is the opposite edge turned by 90°: ∇φ = (−q u_M + p u_m)/(2A) for an edge
+    # p u_M + q u_m. Eq. (24) writes D between the edges themselves, which taken literally exchanges a and b.
     x, y = -elements.along_min, elements.along_max
-    xx, yy = x[:, :, None] * x[:, None, :], y[:, :, None] * y[:, None, :]
-    xy = x[:, :, None] * y[:, None, :]
     scale = (elements.weights / (4 * elements.areas))[:, None, None]
-    mean = scale * ((along + across) / 2)[:, None, None]
-    half = scale * ((along - across) / 2)[:, None, None]
-    return mean * (xx + yy), half * (xx - yy), half * (xy + xy.transpose(0, 2, 1))
+    xx, yy = scale * x[:, :, None] * x[:, None, :], scale * y[:, :, None] * y[:, None, :]
+    xy = scale * x[:, :, None] * y[:, None, :]
+    return xx + yy, xx - yy, xy + xy.transpose(0, 2, 1)
 
 
 def _faces(mesh: TriangleMesh, frames: PrincipalFrames) -> Elements:

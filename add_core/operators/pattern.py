@@ -8,6 +8,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import csr_array
+from scipy.sparse.csgraph import connected_components
 from scipy.sparse.linalg import splu
 
 from .._check import FloatArray, IntArray, read_only
@@ -52,9 +53,18 @@ class SparsityPattern:
         rows = np.repeat(np.arange(self.vertex_count), np.diff(self.indptr))
         return read_only(np.flatnonzero(self.indices == rows))
 
-    def gather(self, element_matrices: FloatArray) -> FloatArray:
-        """Sum element matrices (t, 3, 3) into values (nnz,)."""
-        return np.asarray(np.bincount(self.slots.ravel(), element_matrices.ravel(), len(self.indices)), np.float64)
+    def assembly(self, element_matrices: FloatArray) -> csr_array:
+        """(nnz, t): from a factor for each of the element matrices (t, 3, 3) to the values of their weighted sum."""
+        t = len(element_matrices)
+        columns = np.repeat(np.arange(t), 9)
+        entries = (element_matrices.ravel(), (self.slots.ravel(), columns))
+        return csr_array(entries, shape=(len(self.indices), t))
+
+    @cached_property
+    def pieces(self) -> IntArray:
+        """(n,): the connected piece of each vertex, numbered by first vertex; vertices of no element stand alone."""
+        graph = self.matrix(np.ones(len(self.indices)))
+        return read_only(connected_components(graph, directed=False)[1].astype(np.int64))
 
     def matrix(self, values: FloatArray) -> csr_array:
         """The sparse matrix (n, n) with `values` (nnz,) on this pattern."""

@@ -8,7 +8,6 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 from scipy.sparse import csc_array
-from scipy.sparse.csgraph import connected_components
 from scipy.sparse.linalg import SuperLU, splu
 
 from .._check import BoolArray, FloatArray, finite, positive, positive_array, vertex_index
@@ -41,8 +40,6 @@ class HeatFlow:
         self._root = np.sqrt(np.where(self._massive, laplacian.mass, 1.0))
         self._factors: OrderedDict[tuple[float, float], _Factor] = OrderedDict()
         self._basis: tuple[tuple[int, float, float], KrylovBasis] | None = None
-        graph = laplacian.pattern.matrix(np.ones(len(laplacian.pattern.indices)))
-        self._pieces = connected_components(graph, directed=False)[1].astype(np.int64)
 
     def kernel(self, source: int, *, theta: float, time: float) -> FloatArray:
         """Heat kernel h(source, ·) (n,), 1/length²: how unit heat released at `source` lies after `time`.
@@ -93,7 +90,8 @@ class HeatFlow:
     def _new_basis(self, source: int, theta: float, gamma: float) -> KrylovBasis:
         factor = self._factor_at(theta, gamma)
         order = self.laplacian.pattern.elimination.order
-        piece = np.where(self._pieces == self._pieces[source], self._root, 0.0)[order]
+        pieces = self.laplacian.pattern.pieces
+        piece = np.where(pieces == pieces[source], self._root, 0.0)[order]
         start = np.zeros(len(order))
         start[self.laplacian.pattern.elimination.position[source]] = 1 / self._root[source]
         return KrylovBasis(factor.apply, start, rate=1 / gamma, kernel=piece / np.linalg.norm(piece))
