@@ -42,6 +42,10 @@ class CurveRequest:
             return None
         return cls(state.active, state.diffusion.conductivity, state.diffusion.alpha, state.active_picks)
 
+    def same_operator(self, other: CurveRequest) -> bool:
+        """Whether points that both ask for have the same curves."""
+        return (self.shape, self.conductivity, self.alpha) == (other.shape, other.conductivity, other.alpha)
+
 
 @dataclass(frozen=True)
 class CurveStep:
@@ -60,6 +64,7 @@ class CurvesController:
         self._tickets = count(1)
         self._latest = 0
         self._request: CurveRequest | None = None
+        self._curves: tuple[AutodiffusionCurves, ...] = ()
         self._steps: list[CurveStep] = []
         for signal in (session.active_changed, session.diffusion_changed, session.picks_changed):
             signal.connect(self._follow)
@@ -73,20 +78,18 @@ class CurvesController:
             self._later(self._go_on)
 
     def _begin(self, request: CurveRequest | None) -> None:
+        same = self._request is not None and request is not None and self._request.same_operator(request)
         self._request = request
         if request is None:
-            self._steps = []
+            self._curves, self._steps = (), []
             self._results.set_curves(())
             return
-        kept = {curves.pick: curves for curves in self._results.curves} if self._same_operator(request) else {}
-        curves = tuple(kept.get(pick, _empty(pick)) for pick in request.picks)
-        self._results.set_curves(curves)
-        self._operator = (request.shape, request.conductivity, request.alpha)
-        self._steps = _steps(tuple(each for each in curves if not each.is_complete))
-
-    def _same_operator(self, request: CurveRequest) -> bool:
-        known = getattr(self, "_operator", None)
-        return known == (request.shape, request.conductivity, request.alpha)
+        kept = {curves.pick: curves for curves in self._curves} if same else {}
+        self._curves = tuple(kept.get(pick, _empty(pick)) for pick in request.picks)
+        self._steps = _steps(tuple(each for each in self._curves if not each.is_complete))
+        if same or not self._results.curves:
+            self._results.set_curves(self._curves)
+        # Otherwise what is shown stays until there is something better: an empty plot at every slider event would flicker.
 
     def _go_on(self) -> None:
         if not self._steps or self._request is None:
@@ -104,9 +107,15 @@ class CurvesController:
         if ticket != self._latest:
             return
         self._steps = self._steps[1:]
-        curves = tuple(_with(each, step, answer) if each.pick == step.pick else each for each in self._results.curves)
-        self._results.set_curves(curves)
+        self._curves = tuple(_with(each, step, answer) if each.pick == step.pick else each for each in self._curves)
+        if len(self._steps) in self._milestones():
+            self._results.set_curves(self._curves)
         self._go_on()
+
+    def _milestones(self) -> set[int]:
+        """How many steps are left when it is worth drawing anew: after a quarter and a half of the angles, and at the end."""
+        incomplete = max(1, sum(not each.is_complete for each in self._curves))
+        return {0, ANGLE_COUNT // 2 * incomplete, 3 * ANGLE_COUNT // 4 * incomplete}
 
     def _failed(self, ticket: int, error: BaseException) -> None:
         if ticket == self._latest:

@@ -16,6 +16,9 @@ from ..models.session import Session
 from .curve_plots import CurvePlots, CurveScene
 from .theme import GRID, LIGHT, Theme
 
+_PATIENCE = 100
+"""Milliseconds that the crosshair waits for the kernel's picture."""
+
 
 class CurvePanel(QWidget):
     """AHKS over θ (Cartesian and polar) and over t, with the HKS beside it; drag in a plot to turn θ or move t."""
@@ -51,14 +54,17 @@ class CurvePanel(QWidget):
         self._stack.addWidget(plots)
 
     def _connect(self) -> None:
-        self._frame = QTimer(self, singleShot=True, interval=0)
+        self._frame = QTimer(self, singleShot=True, interval=_PATIENCE)
         self._frame.timeout.connect(self._draw_moving)
+        self._renewal = QTimer(self, singleShot=True, interval=_PATIENCE)
+        self._renewal.timeout.connect(self._draw_all)
         self.canvas.place = self._place
         for event in ("button_press_event", "motion_notify_event"):
             self.canvas.mpl_connect(event, self._dragged)
         self.canvas.mpl_connect("button_release_event", lambda _event: self._session.end_gesture())
         self._results.curves_changed.connect(self._show_curves)
         self._session.diffusion_changed.connect(self._move)
+        self._results.kernel_changed.connect(self._move_with_kernel)
 
     # -- models to view -----------------------------------------------------------------------------------------------
 
@@ -73,11 +79,18 @@ class CurvePanel(QWidget):
         self._legend.setText(
             "Thick: the shown t.  Thin: t/10, dashed 10 t.  Right: thick AHKS at θ, thin HKS (α = 0) at equal t·λ₁."
         )
-        if curves:
-            self._draw_all()
+        if curves and not self._renewal.isActive():
+            self._renewal.start()
 
     def _move(self) -> None:
-        self._frame.start()  # several changes, one picture
+        if not self._frame.isActive():
+            self._frame.start()
+
+    def _move_with_kernel(self) -> None:
+        # Every repaint of any part composes the whole window: crosshair and kernel share one.
+        if self._frame.isActive():
+            self._frame.stop()
+            self._draw_moving()
 
     def _place(self) -> None:
         ratio = self.figure.dpi / 72.0

@@ -76,7 +76,13 @@ class CurvePlots:
         axes.set_xlim(0, 180)
         axes.set_xticks([0, 45, 90, 135, 180], ["0°", "45°", "90°", "135°", "180°"])
         axes.set_xlabel("direction θ", labelpad=1)
-        axes.set_title("AHKS over θ" + (", ÷ mean" if scene.relative else ", 1/⌀²"), loc="left", fontsize=9, color=scene.theme.text, pad=4)
+        axes.set_title(
+            "AHKS over θ" + (", ÷ mean" if scene.relative else ", 1/⌀²"),
+            loc="left",
+            fontsize=9,
+            color=scene.theme.text,
+            pad=4,
+        )
         low, high = _theta_limits(scene)
         axes.set_yscale("linear" if scene.relative else "log")
         axes.set_ylim(low, high)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import cache
 from math import atan2, cos, degrees, pi, radians, sin
 
 from PySide6.QtCore import QPointF, QRectF, QSize, Qt, Signal
@@ -125,8 +126,7 @@ class ThetaDial(QWidget):
     def _paint_plane(self, painter: QPainter) -> None:
         centre, radius = self._centre, self._radius
         hues = QConicalGradient(centre, 0.0)
-        for step in range(49):
-            hues.setColorAt(step / 48, QColor(hex_colour(theta_colour(2 * pi * step / 48))))
+        hues.setStops(_hue_stops())
         painter.setPen(Qt.PenStyle.NoPen)
         painter.setBrush(hues)
         painter.drawEllipse(centre, radius + 5, radius + 5)
@@ -175,6 +175,11 @@ class ThetaDial(QWidget):
             painter.setBrush(Qt.BrushStyle.NoBrush)
             painter.setPen(QPen(accent, 2))
             painter.drawEllipse(self._centre, self._radius + 7, self._radius + 7)
+
+
+@cache
+def _hue_stops() -> list[tuple[float, QColor]]:
+    return [(step / 48, QColor(hex_colour(theta_colour(2 * pi * step / 48)))) for step in range(49)]
 
 
 def theta_text(theta: float) -> str:
