@@ -1,4 +1,4 @@
-"""Make dogs_40x6890.npz from dm_control's dog: `python build_dogs.py [OUTPUT_FOLDER]`. dm_control itself is not imported."""
+"""Make dogs_40x6890.npz from dm_control's dog: `python build_dogs.py [OUTPUT_FOLDER]`. Imports nothing of dm_control."""
 
 import struct
 import sys

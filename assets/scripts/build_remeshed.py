@@ -1,8 +1,8 @@
 """Remesh every shape of a collection on its own, with ground truth.
 
-`python build_remeshed.py COLLECTION.npz OUTPUT.npz [COUNT]`. Shapes of one connectivity flatter every method; these share
-none. For every new vertex the file holds where it lies on the original: its face there, barycentric coordinates, and the
-nearest of that face's corners.
+`python build_remeshed.py COLLECTION.npz OUTPUT.npz [COUNT]`. Shapes of one connectivity flatter every method; these
+share none. For every new vertex the file holds where it lies on the original: its face there, barycentric coordinates,
+and the nearest of that face's corners.
 """
 
 import sys
