@@ -1,0 +1,361 @@
+"""The window, driven like a person drives it: mouse, keys, files."""
+
+from math import degrees, radians
+
+import numpy as np
+import pytest
+from PySide6.QtCore import QMimeData, QPoint, QPointF, Qt, QUrl
+from PySide6.QtGui import QDragEnterEvent, QDropEvent, QImage
+
+from add_viewer.views.dialogs import PictureChoice
+
+THIGH, SHOULDER = 6868, 5056
+CONTROL, SHIFT, ALT = (
+    Qt.KeyboardModifier.ControlModifier,
+    Qt.KeyboardModifier.ShiftModifier,
+    Qt.KeyboardModifier.AltModifier,
+)
+
+
+def vertices(person):
+    return [pick.vertex for pick in person.session.state.active_picks]
+
+
+def test_the_start_page_opens_a_shape_with_one_click(person, qtbot):
+    start = person.window.start
+    start.buttons[2].click()
+    item = start.list.item(3)
+    place = start.list.visualItemRect(item).center()
+    qtbot.mouseClick(start.list.viewport(), Qt.MouseButton.LeftButton, pos=place)
+    qtbot.waitUntil(lambda: person.session.state.active_key == "dogs/3", timeout=20000)
+    assert person.window.pages.currentWidget() is person.window.view
+    assert person.window.settings.recent == ["dogs/3"]
+
+
+def test_a_click_picks_the_vertex_under_the_cursor_and_the_body_takes_colour(person):
+    person.open()
+    bare = person.pixels()
+    person.click(THIGH)
+    assert vertices(person) == [THIGH]
+    person.wait_for_kernel()
+    assert (np.abs(person.pixels() - bare).max(axis=2) > 60).mean() > 0.005
+
+
+def test_a_drag_turns_the_shape_and_picks_nothing(person, qtbot):
+    person.open()
+    before = person.canvas.camera_model.azimuth
+    start = person.place(THIGH)
+    qtbot.mousePress(person.canvas, Qt.MouseButton.LeftButton, pos=start)
+    for step in range(1, 6):
+        qtbot.mouseMove(person.canvas, start + QPoint(8 * step, 0))
+    qtbot.mouseRelease(person.canvas, Qt.MouseButton.LeftButton, pos=start + QPoint(40, 0))
+    assert vertices(person) == []
+    assert person.canvas.camera_model.azimuth != before
+
+
+def test_shift_click_adds_alt_click_mirrors_and_escape_clears(person, qtbot):
+    person.open()
+    mirror = person.session.state.active.mirror(SHOULDER)
+    person.click(THIGH)
+    person.click(SHOULDER, SHIFT)
+    person.click(SHOULDER, ALT)
+    assert vertices(person) == [THIGH, SHOULDER, mirror]
+    qtbot.keyClick(person.window, Qt.Key.Key_Escape)
+    assert vertices(person) == []
+
+
+def test_a_click_beside_the_body_changes_nothing(person, qtbot):
+    person.open()
+    person.click(THIGH)
+    qtbot.mouseClick(person.canvas, Qt.MouseButton.LeftButton, pos=QPoint(60, 200))
+    assert vertices(person) == [THIGH]
+
+
+def test_hovering_tells_vertex_and_value(person, qtbot):
+    person.open()
+    person.click(THIGH)
+    kernel = person.wait_for_kernel()
+    qtbot.mouseMove(person.canvas, person.place(SHOULDER) + QPoint(30, 0))
+    qtbot.mouseMove(person.canvas, person.place(THIGH))
+    assert person.window.hover_label.text().startswith(f"Vertex {THIGH} ")
+    assert f"{kernel.values[THIGH]:.4g}" in person.window.hover_label.text()
+
+
+@pytest.mark.parametrize(
+    ("field", "typed", "name", "value"),
+    [
+        ("alpha", "7.5", "alpha", 7.5),
+        ("alpha", "nonsense", "alpha", 50.0),
+        ("alpha", "1000", "alpha", 200.0),
+        ("theta", "30", "theta", radians(30)),
+        ("theta", "-45", "theta", radians(135)),
+        ("theta", "200°", "theta", radians(20)),
+    ],
+)
+def test_typed_numbers_reach_the_model_and_come_back_to_the_field(person, field, typed, name, value):
+    person.open()
+    panel = person.window.parameters
+    widget = panel.alpha.field if field == "alpha" else panel.theta
+    person.type_into(widget, typed)
+    assert getattr(person.session.state.diffusion, name) == pytest.approx(value)
+    assert float(widget.text()) == pytest.approx(degrees(value) if name == "theta" else value)
+
+
+@pytest.mark.parametrize(("field", "typed"), [("alpha", "3"), ("theta", "90"), ("time", "0.05")])
+def test_typing_changes_the_kernel_and_the_picture(person, qtbot, field, typed):
+    person.open()
+    person.click(THIGH)
+    kernel = person.wait_for_kernel()
+    before = person.pixels()
+    panel = person.window.parameters
+    fields = {"alpha": panel.alpha.field, "theta": panel.theta, "time": panel.time.field}
+    person.type_into(fields[field], typed)
+    changed = person.wait_for_kernel(kernel)
+    assert not np.allclose(changed.values, kernel.values)
+    assert np.abs(person.pixels() - before).max() > 40
+    if field == "time":
+        assert changed.time == pytest.approx(0.05)
+
+
+def test_a_vertex_number_can_be_typed(person, qtbot):
+    person.open()
+    qtbot.keyClick(person.window, Qt.Key.Key_G, CONTROL)
+    field = person.window.parameters.picks.field
+    assert field.hasFocus()
+    qtbot.keyClicks(field, "1234")
+    qtbot.keyClick(field, Qt.Key.Key_Return)
+    assert vertices(person) == [1234]
+    person.type_into(field, "99999999")
+    assert vertices(person) == [6889]
+
+
+def test_the_dial_follows_the_mouse_and_snaps_with_control(person, qtbot):
+    person.open()
+    dial = person.window.parameters.dial
+    qtbot.mouseClick(dial, Qt.MouseButton.LeftButton, pos=dial.place_of(radians(68)).toPoint())
+    assert degrees(person.session.state.diffusion.theta) == pytest.approx(68, abs=1.5)
+    qtbot.mouseClick(dial, Qt.MouseButton.LeftButton, CONTROL, dial.place_of(radians(68)).toPoint())
+    assert degrees(person.session.state.diffusion.theta) == pytest.approx(75)
+    qtbot.mouseDClick(dial, Qt.MouseButton.LeftButton, pos=dial.place_of(radians(68)).toPoint())
+    assert person.session.state.diffusion.theta == 0.0
+
+
+@pytest.mark.parametrize(
+    ("key", "modifier", "expected"),
+    [
+        (Qt.Key.Key_Left, None, 11.0),
+        (Qt.Key.Key_Right, None, 9.0),
+        (Qt.Key.Key_Left, CONTROL, 15.0),
+        (Qt.Key.Key_Right, CONTROL, 0.0),
+        (Qt.Key.Key_PageUp, None, 25.0),
+    ],
+)
+def test_the_dial_follows_the_keys(person, qtbot, key, modifier, expected):
+    person.open()
+    person.session.diffuse(theta=radians(10))
+    qtbot.keyClick(person.window.parameters.dial, key, modifier or Qt.KeyboardModifier.NoModifier)
+    assert degrees(person.session.state.diffusion.theta) == pytest.approx(expected)
+
+
+def test_sliders_follow_the_mouse_and_reset_on_a_double_click(person, qtbot):
+    person.open()
+    alpha, time = person.window.parameters.alpha.slider, person.window.parameters.time.slider
+    qtbot.mouseClick(alpha, Qt.MouseButton.LeftButton, pos=alpha.place_of(5.0).toPoint())
+    assert person.session.state.diffusion.alpha == pytest.approx(5.0, abs=0.1)
+    qtbot.mouseClick(time, Qt.MouseButton.LeftButton, pos=time.place_of(0.5).toPoint())
+    assert person.session.state.diffusion.reach == pytest.approx(0.5, rel=0.05)
+    qtbot.mouseDClick(alpha, Qt.MouseButton.LeftButton, pos=alpha.place_of(5.0).toPoint())
+    assert person.session.state.diffusion.alpha == 50.0
+
+
+def test_the_controls_show_what_the_model_says_and_do_not_answer_back(person):
+    person.open()
+    changes = []
+    person.session.diffusion_changed.connect(lambda: changes.append(1))
+    person.session.diffuse(alpha=12.0, theta=radians(33), conductivity="constant")
+    panel = person.window.parameters
+    assert panel.alpha.field.text() == "12"
+    assert panel.theta.text() == "33"
+    assert panel.model.currentData() == "constant"
+    assert changes == [1]
+
+
+def test_space_plays_theta_and_space_stops_it(person, qtbot):
+    person.open()
+    qtbot.keyClick(person.canvas, Qt.Key.Key_Space)
+    qtbot.waitUntil(lambda: person.session.state.diffusion.theta > radians(2), timeout=5000)
+    qtbot.keyClick(person.canvas, Qt.Key.Key_Space)
+    theta = person.session.state.diffusion.theta
+    qtbot.wait(120)
+    assert person.session.state.diffusion.theta == theta
+    person.session.undo()
+    assert person.session.state.diffusion.theta == 0.0
+
+
+def test_a_bad_file_shows_a_message_and_leaves_the_session_as_it_was(person, qtbot, tmp_path):
+    person.open()
+    person.click(THIGH)
+    state = person.session.state
+    path = tmp_path / "noise.ply"
+    path.write_bytes(bytes(range(256)) * 4)
+    person.window.open_requested.emit(str(path))
+    qtbot.waitUntil(person.window.message.isVisible, timeout=10000)
+    assert "noise.ply" in person.window.message.text.text()
+    assert person.session.state is state
+    person.window.message.close_button.click()
+    assert not person.window.message.isVisible()
+
+
+def test_files_are_opened_where_they_are_dropped(person, qtbot, tmp_path):
+    from add_core.geometry import shapes
+    from add_core.io import save_shape
+
+    path = tmp_path / "ring.off"
+    save_shape(shapes.torus(around=24, through=12), path)
+    data = QMimeData()
+    data.setUrls([QUrl.fromLocalFile(str(path))])
+    middle, buttons, none = QPointF(300, 300), Qt.MouseButton.LeftButton, Qt.KeyboardModifier.NoModifier
+    entering = QDragEnterEvent(middle.toPoint(), Qt.DropAction.CopyAction, data, buttons, none)
+    person.window.dragEnterEvent(entering)
+    assert entering.isAccepted()
+    person.window.dropEvent(QDropEvent(middle, Qt.DropAction.CopyAction, data, buttons, none))
+    qtbot.waitUntil(lambda: person.session.state.active is not None, timeout=10000)
+    assert person.session.state.active.name == "ring"
+    assert person.window.settings.recent == [str(path.resolve())]
+
+
+@pytest.mark.parametrize("scale", [1, 2, 4])
+@pytest.mark.parametrize("transparent", [False, True])
+def test_pictures_have_the_size_and_background_that_was_asked_for(person, tmp_path, scale, transparent):
+    person.open()
+    path = tmp_path / "picture.png"
+    person.assembly.saving.save_picture(path, PictureChoice(scale, transparent, labels=True))
+    image = QImage(str(path))
+    assert (image.width(), image.height()) == (scale * person.canvas.width(), scale * person.canvas.height())
+    corner = image.pixelColor(image.width() - 2, 2)
+    assert corner.alpha() == (0 if transparent else 255)
+    middle = person.canvas.place_of(THIGH)
+    assert image.pixelColor((scale * middle).toPoint()).alpha() == 255
+
+
+def test_a_picture_that_cannot_be_written_is_told(person, tmp_path):
+    person.open()
+    person.assembly.saving.save_picture(tmp_path / "none" / "picture.png", PictureChoice(1, False, True))
+    assert "was not saved" in person.window.message.text.text()
+
+
+@pytest.mark.parametrize(("ending", "start"), [(".png", b"\x89PNG"), (".svg", b"<?xml"), (".pdf", b"%PDF"), (".csv", b"vertex")])
+def test_curves_are_exported(person, qtbot, tmp_path, ending, start):
+    person.open()
+    person.click(THIGH)
+    qtbot.waitUntil(lambda: bool(person.results.curves) and len(person.results.curves[0].thetas) >= 4, timeout=30000)
+    path = tmp_path / f"curves{ending}"
+    person.assembly.saving.save_curves(path)
+    assert path.read_bytes().startswith(start)
+    assert [each.name for each in tmp_path.iterdir() if each.name.startswith("curves")] == [path.name]
+
+
+def test_the_crosshairs_are_linked_to_theta_and_t(person, qtbot):
+    person.open()
+    person.click(THIGH)
+    qtbot.waitUntil(lambda: bool(person.results.curves) and len(person.results.curves[0].thetas) >= 4, timeout=30000)
+    plots, canvas = person.window.curves.plots, person.window.curves.canvas
+    qtbot.wait(250)
+
+    def press(axes, x, y):
+        right, up = axes.transData.transform((x, y))
+        ratio = canvas.device_pixel_ratio
+        qtbot.mouseClick(canvas, Qt.MouseButton.LeftButton, pos=QPoint(int(right / ratio), int(canvas.height() - up / ratio)))
+
+    press(plots.theta_axes, 120.0, np.mean(plots.theta_axes.get_ylim()))
+    assert degrees(person.session.state.diffusion.theta) == pytest.approx(120, abs=1)
+    press(plots.polar_axes, radians(225), 0.7 * plots.polar_axes.get_ylim()[1])
+    assert degrees(person.session.state.diffusion.theta) == pytest.approx(45, abs=3)
+    time = 0.3 / person.results.weyl_eigenvalue
+    press(plots.time_axes, time, float(np.sqrt(np.prod(plots.time_axes.get_ylim()))))
+    assert person.session.state.diffusion.reach == pytest.approx(0.3, rel=0.05)
+
+
+def test_the_direction_field_is_drawn_above_the_skin_and_turns(person, qtbot):
+    person.open()
+    qtbot.keyClick(person.window, Qt.Key.Key_D)
+    qtbot.waitUntil(lambda: person.results.directions is not None, timeout=20000)
+    qtbot.waitUntil(lambda: person.canvas._needles is not None, timeout=5000)
+    before = person.pixels()
+    person.session.diffuse(theta=radians(90))
+    assert np.abs(person.pixels() - before).max() > 60
+    qtbot.keyClick(person.window, Qt.Key.Key_D)
+    assert person.canvas._needles is None
+
+
+@pytest.mark.parametrize("theme", ["light", "dark"])
+def test_the_theme_reaches_the_background_and_is_kept(person, theme):
+    person.open()
+    person.assembly.display.set("theme", theme)
+    corner = person.pixels()[5, 5]
+    assert corner.mean() > 200 if theme == "light" else corner.mean() < 90
+    assert person.window.menus.actions[f"theme:{theme}"].isChecked()
+
+
+def test_views_look_at_the_shape_s_own_sides(person, qtbot):
+    person.open()
+    for key, nearest in ((Qt.Key.Key_1, (0, -1, 0)), (Qt.Key.Key_3, (0, 1, 0)), (Qt.Key.Key_4, (1, 0, 0))):
+        qtbot.keyClick(person.window, key)
+        assert person.canvas.camera_model.direction == pytest.approx(np.array(nearest), abs=1e-9)
+
+
+def test_the_right_click_menu_offers_what_makes_sense(person):
+    person.open()
+    person.click(THIGH)
+    there = [action.text() for action in person.window.context_menu(THIGH).actions()]
+    assert "Remove this point" in there
+    assert "Add its mirror point" in there
+    beside = [action.text() for action in person.window.context_menu(-1).actions()]
+    assert not any("point" in text for text in beside)
+
+
+def test_panels_hide_on_the_start_page_and_come_back_as_they_were(person):
+    assert person.window.parameter_dock.isHidden()
+    person.open()
+    assert person.window.parameter_dock.isVisible()
+    person.window.curve_dock.hide()
+    person.window.show_start()
+    assert person.window.parameter_dock.isHidden()
+    person.open("humans/1")
+    assert person.window.parameter_dock.isVisible()
+    assert person.window.curve_dock.isHidden()
+
+
+def test_every_shipped_shape_can_be_shown(person):
+    """The cheap path: the view shows each shape without its operator being built."""
+    from dataclasses import replace
+
+    from add_viewer.controllers.opening import SHIPPED
+
+    person.open()
+    known = person.session.state.active
+    for name, collection in SHIPPED.items():
+        for index, shape in enumerate(collection()):
+            person.canvas.show_shape(replace(known, key=f"{name}/{index}", shape=shape), "+z", "-y")
+            assert person.canvas.vertex_at(QPointF(person.canvas.place_of(0))) >= -1
+    middle = person.pixels()[person.canvas.height() // 2]
+    assert np.ptp(middle, axis=0).max() > 20
+
+
+def test_settings_survive_the_next_start(assembly, qapp, tmp_path):
+    from PySide6.QtCore import QSettings
+
+    from add_viewer.assembly import Assembly
+
+    assembly.display.set("arrows", True)
+    assembly.display.set("theme", "dark")
+    assembly.window.remember("humans/7")
+    assembly.window.resize(1100, 720)
+    assembly.window.close()
+    store = QSettings(str(tmp_path / "settings.ini"), QSettings.Format.IniFormat)
+    again = Assembly([], store=store)
+    assert again.display["arrows"] is True
+    assert again.display["theme"] == "dark"
+    assert again.window.settings.recent == ["humans/7"]
+    assert (again.window.width(), again.window.height()) == (1100, 720)
+    again.stop()
