@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import logging
 import os
-import secrets
 import stat
 from collections.abc import Mapping
 from pathlib import Path
@@ -13,6 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..errors import AddError, ParameterError, ShapeFileError
+from .atomic import write_atomically
 from .contents import Fields, FileContents, Shape
 from .formats import FORMATS, extensions
 from .sniffing import looks_like
@@ -73,7 +73,7 @@ def save_shape(shape: Shape, path: StrPath, fields: Mapping[str, ArrayLike] | No
             raise ShapeFileError(f"{known.name} files are read, but not written. Choose .glb.")
         if fields and not known.holds_fields:
             raise ShapeFileError(_no_fields(known.name))
-        _replace(path, known.write(shape, _checked_fields(fields or {}, shape.vertex_count)))
+        write_atomically(path, known.write(shape, _checked_fields(fields or {}, shape.vertex_count)))
     except AddError as error:
         raise type(error)(f"{path}: {error}") from None
 
@@ -145,19 +145,3 @@ def _checked_fields(fields: Mapping[str, ArrayLike], vertex_count: int) -> Field
             )
         checked[name] = array
     return checked
-
-
-def _replace(path: Path, data: bytes) -> None:
-    """A reader sees the old file or the whole new one, also if the disk is full or the program dies."""
-    temporary = path.with_name(f".{path.name}.{secrets.token_hex(4)}.part")
-    try:
-        try:
-            with temporary.open("xb") as file:
-                file.write(data)
-                file.flush()
-                os.fsync(file.fileno())
-            os.replace(temporary, path)
-        finally:
-            temporary.unlink(missing_ok=True)
-    except OSError as error:
-        raise ShapeFileError(f"cannot be written ({error.strerror or error}).") from None
