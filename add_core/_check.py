@@ -120,3 +120,35 @@ def _number(name: str, value: Any, expectation: str, holds: Any) -> float:
     if not np.isfinite(number) or not holds(number):
         raise ParameterError(f"{name} must be {expectation}, but it is {value}.")
     return number
+
+
+def descriptor_array(name: str, value: ArrayLike, *, width: int | None = None) -> FloatArray:
+    """`value` as float64 of shape (n, d), one row a point, all finite; d = `width` where that is given."""
+    try:
+        array = np.ascontiguousarray(value, dtype=np.float64)
+    except (TypeError, ValueError) as error:
+        raise ParameterError(f"{name} must be an array of numbers of shape (n, d), but it is not: {error}.") from None
+    if array.ndim != 2 or 0 in array.shape:
+        raise ParameterError(f"{name} must have shape (n, d), a row for each point, but it has {array.shape}.")
+    if width is not None and array.shape[1] != width:
+        raise ParameterError(f"{name} must have {width} numbers a point like the others, but it has {array.shape[1]}.")
+    bad = ~np.isfinite(array).all(axis=1)
+    if bad.any():
+        raise ParameterError(
+            f"{name} must be finite, but {bad.sum()} of {len(array)} rows are not (first: {np.argmax(bad)})."
+        )
+    return array
+
+
+def index_array(name: str, value: ArrayLike, limit: int, *, count: int | None = None, least: int = 0) -> IntArray:
+    """`value` as int64 of shape (count,), each from `least` to `limit` − 1."""
+    array = np.asarray(value)
+    if array.ndim != 1 or (count is not None and len(array) != count):
+        raise ParameterError(f"{name} must have shape ({'n' if count is None else count},), but it has {array.shape}.")
+    if array.dtype.kind not in "iu":
+        raise ParameterError(f"{name} must hold integers, but it holds {array.dtype}.")
+    if array.size and (array.min() < least or array.max() >= limit):
+        raise ParameterError(
+            f"{name} must be from {least} to {limit - 1}, but it ranges from {array.min()} to {array.max()}."
+        )
+    return array.astype(np.int64)
