@@ -9,7 +9,19 @@ import numpy as np
 
 from .._check import IntArray, one_of, read_only
 from ..errors import ParameterError
+from ..geometry import PointCloud, TriangleMesh
 from .contents import Shape
+
+
+@dataclass(frozen=True, eq=False)
+class Landmarks:
+    """Which vertices of one shape lie at which numbered places of a template that its collection shares.
+
+    vertices, places : (k,) each. A vertex may lie at several places, and a place be without a vertex.
+    """
+
+    vertices: IntArray
+    places: IntArray
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -27,6 +39,7 @@ class Collection:
     unit : length unit of the vertices, "" if unknown.
     up, front : the axes that point up and that the shapes look along, e.g. "+z" and "-y"; "" if unknown.
     licence : under which terms the shapes may be used, in a few words.
+    make_shape : gives the shape of an index. landmarks : gives those of an index, None if the shapes share their faces.
     """
 
     title: str
@@ -40,7 +53,7 @@ class Collection:
     front: str = ""
     licence: str = ""
     make_shape: Callable[[int], Shape] = field(repr=False)
-    landmarks: Callable[[int], IntArray] | None = field(default=None, repr=False)
+    landmarks: Callable[[int], Landmarks] | None = field(default=None, repr=False)
 
     def __len__(self) -> int:
         return len(self.names)
@@ -52,15 +65,27 @@ class Collection:
         return (self.make_shape(index) for index in range(len(self)))
 
     def correspondence(self, i: int, j: int) -> IntArray:
-        """(n_i,): the vertex of shape j at the same place as each vertex of shape i, -1 where j has none."""
+        """(n_i,): the vertex of shape j at the same place as each vertex of shape i, -1 where j has none.
+
+        Raises ParameterError if the shapes neither share their faces nor come with landmarks.
+        """
         i, j = self._checked(i), self._checked(j)
-        if self.landmarks is None:  # one connectivity: a vertex keeps its number
-            return read_only(np.arange(self.make_shape(i).vertex_count, dtype=np.int64))
+        first, second = self.make_shape(i), self.make_shape(j)
+        if self.landmarks is None:
+            if not _same_connectivity(first, second):
+                raise ParameterError(
+                    f"{self.names[i]} and {self.names[j]} have different faces and no correspondence file (.vts, .map)."
+                )
+            return read_only(np.arange(first.vertex_count, dtype=np.int64))
         source, target = self.landmarks(i), self.landmarks(j)
-        vertex_at = np.full(max(source.max(), target.max()) + 1, -1, dtype=np.int64)
-        # The first of several vertices at one place answers for it, so write it last.
-        vertex_at[target[::-1]] = np.arange(len(target) - 1, -1, -1)
-        return read_only(vertex_at[source])
+        vertex_at = np.full(max(source.places.max(), target.places.max()) + 1, -1, dtype=np.int64)
+        # The first of several answers counts, so it is written last.
+        vertex_at[target.places[::-1]] = target.vertices[::-1]
+        found = vertex_at[source.places]
+        result = np.full(first.vertex_count, -1, dtype=np.int64)
+        known = np.flatnonzero(found >= 0)[::-1]
+        result[source.vertices[known]] = found[known]
+        return read_only(result)
 
     def split(self, part: str) -> IntArray:
         """Indices of the shapes to "train" on or to "test" with, ascending and disjoint.
@@ -69,9 +94,7 @@ class Collection:
         """
         one_of("part", part, ("train", "test"))
         if self.training is None:
-            raise ParameterError(
-                f"{self.title} has no customary split into training and test shapes. Choose indices yourself."
-            )
+            raise ParameterError(f"{self.title} has no customary split into training and test shapes. Choose indices.")
         chosen = np.isin(np.arange(len(self)), self.training)
         return read_only(np.flatnonzero(chosen if part == "train" else ~chosen).astype(np.int64))
 
@@ -80,3 +103,13 @@ class Collection:
         if not -len(self) <= index < len(self):
             raise IndexError(f"{self.title} has shapes 0 to {len(self) - 1}, but {index} was asked for.")
         return int(index) % len(self)
+
+
+def _same_connectivity(first: Shape, second: Shape) -> bool:
+    if isinstance(first, PointCloud) or isinstance(second, PointCloud):
+        # Points have no faces to compare; equal numbers are all there is to go by.
+        return (
+            isinstance(first, PointCloud) == isinstance(second, PointCloud)
+            and first.vertex_count == second.vertex_count
+        )
+    return isinstance(second, TriangleMesh) and np.array_equal(first.faces, second.faces)

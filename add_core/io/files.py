@@ -26,9 +26,10 @@ StrPath = str | os.PathLike[str]
 def load_shape(path: StrPath) -> Shape:
     """The shape in a file: a TriangleMesh, or a PointCloud if the file holds points alone; named after the file.
 
-    Reads OFF, OBJ, PLY, STL, VTP, legacy VTK, GLB and glTF, XYZ and NPZ. Vertices keep the file's order and number,
-    also duplicate and unreferenced ones; STL, which has no vertices, gets one for every distinct corner, by first
-    appearance. Polygons of more than three corners are split into fans, which is logged. Coordinates keep their unit.
+    Reads OFF, OBJ, PLY, STL, VTP, legacy VTK, GLB and glTF, XYZ, NPZ and TOSCA's .mat and .vert. Vertices keep the
+    file's order and number, also duplicate and unreferenced ones; STL, which has no vertices, gets one for every
+    distinct corner, by first appearance. Polygons of more than three corners are split into fans, which is logged.
+    Coordinates keep their unit.
 
     Raises ShapeFileError or GeometryError, with the file's name, if there is no such file or no shape in it.
     """
@@ -70,7 +71,9 @@ def save_shape(shape: Shape, path: StrPath, fields: Mapping[str, ArrayLike] | No
         if known is None:
             raise ShapeFileError(_unsupported(path, None))
         if known.write is None:
-            raise ShapeFileError(f"{known.name} files are read, but not written. Choose .glb.")
+            raise ShapeFileError(
+                f"{known.name} files are read, but not written. Choose one of {', '.join(extensions(writable=True))}."
+            )
         if fields and not known.holds_fields:
             raise ShapeFileError(_no_fields(known.name))
         write_atomically(path, known.write(shape, _checked_fields(fields or {}, shape.vertex_count)))

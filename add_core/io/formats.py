@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
-from . import gltf, npz, obj, off, ply, stl, vtk_legacy, vtk_writing, vtk_xml, xyz
+from . import gltf, npz, obj, off, ply, stl, tosca, vtk_legacy, vtk_writing, vtk_xml, xyz
 from .contents import Fields, FileContents, Shape
 
 
@@ -39,10 +39,16 @@ FORMATS: dict[str, Format] = {
     ".glb": Format("GLB", gltf.read, gltf.write, ("GLB", "glTF")),
     ".gltf": Format("glTF", gltf.read, None, ("glTF", "GLB")),
     ".xyz": Format("XYZ", _whole(xyz.read), xyz.write, ("XYZ",)),
+    ".mat": Format("MATLAB", _whole(tosca.read_matlab), None, ("MATLAB",)),
+    ".vert": Format("TOSCA vertex", tosca.read_vert, None, ("TOSCA vertex",)),
     ".npz": Format("NPZ", _whole(npz.read), npz.write, ("ZIP",), holds_fields=True),
 }
 
 
-def extensions(*, holding_fields: bool = False) -> tuple[str, ...]:
-    """Extensions that shapes can be read from, or that can also be written with fields."""
-    return tuple(ext for ext, known in FORMATS.items() if known.holds_fields or not holding_fields)
+def extensions(*, writable: bool = False, holding_fields: bool = False) -> tuple[str, ...]:
+    """Extensions that shapes can be read from; only those that can also be written, or that hold fields, on request."""
+    return tuple(
+        ext
+        for ext, known in FORMATS.items()
+        if (known.write is not None or not writable) and (known.holds_fields or not holding_fields)
+    )

@@ -14,7 +14,7 @@ _MAGIC = (
     (b"BZh", "bzip2"),
     (b"\xfd7zXZ", "xz"),
     (b"7z\xbc\xaf", "7-Zip"),
-    (b"MATLAB 5.0", "MATLAB"),
+    (b"MATLAB ", "MATLAB"),
     (b"\x89HDF", "HDF5"),
     (b"\x93NUMPY", "NPY"),
     (b"\x89PNG", "PNG"),

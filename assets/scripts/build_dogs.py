@@ -1,4 +1,4 @@
-"""Make dogs_40x6890.npz from dm_control's dog: `python build_dogs.py [OUTPUT_FOLDER]`. Imports nothing of dm_control."""
+"""Make dogs_40x6890.npz from dm_control's dog: `python build_dogs.py [OUTPUT_FOLDER]`."""
 
 import struct
 import sys

@@ -1,10 +1,7 @@
 """Vertices come back in the order and number of the file, whatever the format makes of them."""
 
-import base64
 import io
-import json
 import logging
-import struct
 
 import numpy as np
 import pytest
@@ -238,152 +235,6 @@ def test_ply_of_another_writer(awkward, tmp_path, encoding):
     assert_array_equal(load_shape(tmp_path / "a.ply").faces, awkward.faces)
 
 
-@pytest.mark.parametrize("mode", [0, 1, 2])
-@pytest.mark.parametrize("compressor", ["ZLib", "LZMA", None])
-@pytest.mark.parametrize("header", [32, 64])
-def test_vtp_as_vtk_writes_it(awkward, tmp_path, mode, compressor, header):
-    """Text, base64 and appended bytes, compressed or not."""
-    from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
-
-    writer = vtkXMLPolyDataWriter()
-    writer.SetInputData(_vtk_mesh(awkward))
-    writer.SetDataMode(mode)
-    writer.SetHeaderType(header)
-    writer.SetEncodeAppendedData(mode == 2 and header == 64)
-    writer.SetBlockSize(64)
-    getattr(writer, f"SetCompressorTypeTo{compressor}")()
-    writer.SetFileName(str(tmp_path / "a.vtp"))
-    writer.Write()
-    _check_vtk(awkward, tmp_path / "a.vtp")
-
-
-@pytest.mark.parametrize("kind", [1, 2])
-@pytest.mark.parametrize("version", [42, 51])
-def test_legacy_vtk_as_vtk_writes_it(awkward, tmp_path, kind, version):
-    from vtkmodules.vtkIOLegacy import vtkPolyDataWriter
-
-    writer = vtkPolyDataWriter()
-    writer.SetInputData(_vtk_mesh(awkward))
-    writer.SetFileType(kind)
-    writer.SetFileVersion(version)
-    writer.SetFileName(str(tmp_path / "a.vtk"))
-    writer.Write()
-    _check_vtk(awkward, tmp_path / "a.vtk", rtol=1e-9)
-
-
-def test_vtk_reads_what_is_written(awkward, tmp_path):
-    from vtkmodules.util.numpy_support import vtk_to_numpy
-    from vtkmodules.vtkIOLegacy import vtkPolyDataReader
-    from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
-
-    for extension, reader in ((".vtk", vtkPolyDataReader()), (".vtp", vtkXMLPolyDataReader())):
-        save_shape(awkward, tmp_path / f"a{extension}", fields={"u": np.arange(8.0)})
-        reader.SetFileName(str(tmp_path / f"a{extension}"))
-        reader.Update()
-        output = reader.GetOutput()
-        assert_array_equal(vtk_to_numpy(output.GetPoints().GetData()), awkward.vertices)
-        assert_array_equal(vtk_to_numpy(output.GetPolys().GetConnectivityArray()).reshape(-1, 3), awkward.faces)
-        assert_array_equal(vtk_to_numpy(output.GetPointData().GetArray("u")), np.arange(8.0))
-
-
-def test_an_unstructured_grid_of_polygons_is_a_mesh(tmp_path):
-    (tmp_path / "a.vtk").write_text(
-        "# vtk DataFile Version 3.0\ngrid\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 float\n0 0 0 1 0 0 1 1 0 0 1 0\n"
-        "CELLS 1 5\n4 0 1 2 3\nCELL_TYPES 1\n9\nPOINT_DATA 4\nSCALARS u float 1\nLOOKUP_TABLE default\n1 2 3 4\n"
-        "VECTORS w float\n1 0 0 0 1 0 0 0 1 1 1 1\n"
-    )
-    assert load_shape(tmp_path / "a.vtk").area == pytest.approx(1.0)
-    fields = load_fields(tmp_path / "a.vtk")
-    assert_array_equal(fields["u"], [1, 2, 3, 4])
-    assert_array_equal(fields["w"][2], [0, 0, 1])
-
-
-def _gltf(positions: np.ndarray, materials: list[list[int]], nodes: list[dict]) -> tuple[dict, bytes]:
-    """A scene whose only mesh is one list of vertices with a list of corners for each of its materials."""
-    parts = [positions.astype("<f4").tobytes(), *(np.array(corners, "<u4").tobytes() for corners in materials)]
-    starts = np.cumsum([0] + [len(part) for part in parts]).tolist()
-    views = [{"buffer": 0, "byteOffset": at, "byteLength": len(part)} for at, part in zip(starts, parts, strict=False)]
-    accessors = [{"bufferView": 0, "componentType": 5126, "count": len(positions), "type": "VEC3"}]
-    for number, corners in enumerate(materials, start=1):
-        accessors.append({"bufferView": number, "componentType": 5125, "count": len(corners), "type": "SCALAR"})
-    primitives = [{"attributes": {"POSITION": 0}, "indices": k} for k in range(1, len(materials) + 1)]
-    tree = {
-        "asset": {"version": "2.0"},
-        "scenes": [{"nodes": [0]}],
-        "nodes": nodes,
-        "meshes": [{"primitives": primitives}],
-        "accessors": accessors,
-        "bufferViews": views,
-        "buffers": [{"byteLength": starts[-1]}],
-    }
-    return tree, b"".join(parts)
-
-
-def _write_gltf(folder, kind: str, tree: dict, blob: bytes):
-    path = folder / f"a.{'glb' if kind == 'glb' else 'gltf'}"
-    if kind == "glb":
-        text = json.dumps(tree).encode()
-        text += b" " * (-len(text) % 4)
-        body = struct.pack("<I4s", len(text), b"JSON") + text + struct.pack("<I4s", len(blob), b"BIN\0") + blob
-        path.write_bytes(struct.pack("<4sII", b"glTF", 2, 12 + len(body)) + body)
-        return path
-    (folder / "numbers 1.bin").write_bytes(blob)
-    within = "data:application/octet-stream;base64," + base64.b64encode(blob).decode()
-    tree["buffers"][0]["uri"] = within if kind == "within" else "numbers%201.bin"
-    path.write_text(json.dumps(tree))
-    return path
-
-
-@pytest.mark.parametrize("kind", ["glb", "beside", "within"])
-def test_gltf_meshes_are_placed_by_their_nodes_in_order(awkward, tmp_path, kind):
-    half = np.sqrt(0.5)
-    nodes = [
-        {"children": [2, 1], "translation": [1, 2, 3]},
-        {"mesh": 0, "scale": [-1, 1, 1]},
-        {"mesh": 0, "rotation": [0, 0, half, half], "children": [3]},
-        {"mesh": 0, "matrix": [2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 2, 0, 0, 0, 5, 1]},
-    ]
-    corners = awkward.faces.ravel().tolist()
-    mesh = load_shape(_write_gltf(tmp_path, kind, *_gltf(awkward.vertices, [corners[:6], corners[6:]], nodes)))
-    assert mesh.vertex_count == 24  # one list of vertices for both materials, three times
-    x, y, z = awkward.vertices.T
-    assert_allclose(mesh.vertices[:8], np.stack([1 - y, 2 + x, 3 + z], axis=1), atol=1e-6)
-    assert_allclose(mesh.vertices[8:16], np.stack([1 - 2 * y, 2 + 2 * x, 3 + 2 * z + 5], axis=1), atol=1e-6)
-    assert_allclose(mesh.vertices[16:], np.stack([1 - x, 2 + y, 3 + z], axis=1), atol=1e-6)
-    assert_array_equal(mesh.faces[:8], np.concatenate([awkward.faces, awkward.faces + 8]))
-    # The mirrored node turns its faces, so that outside stays outside.
-    assert_allclose(mesh.face_normals[8:11], awkward.face_normals[:3] * [-1, 1, 1], atol=1e-5)
-
-
-@pytest.mark.parametrize(
-    ("mode", "faces"), [(5, [[0, 1, 2], [3, 2, 1], [2, 3, 4]]), (6, [[0, 1, 2], [0, 2, 3], [0, 3, 4]])]
-)
-def test_gltf_strips_and_fans(awkward, tmp_path, mode, faces):
-    tree, blob = _gltf(awkward.vertices, [[0, 1, 2, 3, 4]], [{"mesh": 0}])
-    tree["meshes"][0]["primitives"][0]["mode"] = mode
-    assert_array_equal(load_shape(_write_gltf(tmp_path, "glb", tree, blob)).faces, faces)
-
-
-@pytest.mark.parametrize(
-    ("spoil", "complaint"),
-    [
-        (lambda tree: tree["nodes"][0].update(children=[0]), "nodes that are their own ancestors"),
-        (lambda tree: tree["accessors"][0].update(count=10**12), "claims 1000000000000 rows of numbers"),
-        (lambda tree: tree["accessors"][0].pop("bufferView"), "stores vertices as differences"),
-        (lambda tree: tree.update(extensionsRequired=["KHR_draco_mesh_compression"]), "is compressed by KHR_draco"),
-        (lambda tree: tree["buffers"][0].update(uri="../secret.bin"), "outside its own folder"),
-        (lambda tree: tree["buffers"][0].update(uri="missing.bin"), "'missing.bin', which cannot be read"),
-        (lambda tree: tree.pop("accessors"), r"not a complete glTF file \(KeyError: 'accessors'\)"),
-        (lambda tree: tree["scenes"][0].update(nodes=[]), "holds no meshes"),
-    ],
-)
-def test_gltf_that_cannot_be_read_is_explained(awkward, tmp_path, spoil, complaint):
-    tree, blob = _gltf(awkward.vertices, [[0, 1, 2]], [{"mesh": 0}])
-    spoil(tree)
-    with pytest.raises(ShapeFileError, match=complaint):
-        load_shape(_write_gltf(tmp_path, "glb", tree, blob))
-
-
 def test_noise_around_numbers_is_tolerated(tmp_path):
     (tmp_path / "a.xyz").write_bytes("\ufeff# a scan, Größe in mm\n0,0,0\n1;0;0\n\n0\t1 0\n".encode())
     assert_array_equal(load_shape(tmp_path / "a.xyz").points, [[0, 0, 0], [1, 0, 0], [0, 1, 0]])
@@ -409,18 +260,3 @@ def test_an_archive_with_objects_is_not_unpickled(tmp_path):
     np.savez(tmp_path / "a.npz", vertices=np.array([Bomb()], dtype=object))
     with pytest.raises(ShapeFileError, match=r"a\.npz: is not a readable NPZ archive \(Object arrays cannot be loaded"):
         load_shape(tmp_path / "a.npz")
-
-
-def _vtk_mesh(mesh):
-    from add_core.io.vtk_writing import _poly_data
-
-    return _poly_data(mesh, {"direction field": mesh.vertices, "u": mesh.vertices[:, 0]})
-
-
-def _check_vtk(mesh, path, rtol=1e-12):
-    loaded = load_shape(path)
-    assert_allclose(loaded.vertices, mesh.vertices, rtol=rtol)
-    assert_array_equal(loaded.faces, mesh.faces)
-    fields = load_fields(path)
-    assert_allclose(fields["direction field"], mesh.vertices, rtol=rtol)
-    assert_allclose(fields["u"], mesh.vertices[:, 0], rtol=rtol)

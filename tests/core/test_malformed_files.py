@@ -6,6 +6,7 @@ import tracemalloc
 
 import numpy as np
 import pytest
+from scipy.io import savemat
 
 from add_core.cli import main
 from add_core.errors import AddError, GeometryError, ShapeFileError
@@ -43,6 +44,8 @@ MALFORMED = {
     "noise.vtp": (NOISE, "is not well-formed XML"),
     "noise.glb": (NOISE, "has no readable glTF description"),
     "noise.xyz": (NOISE, "should be a point"),
+    "noise.mat": (NOISE, "has no complete MATLAB header"),
+    "hdf.mat": (b"MATLAB 7.3 MAT-file".ljust(128), "is a MATLAB file of version 7.3. Save it again with -v7"),
     "noise.npz": (NOISE, "is not a readable NPZ archive"),
     "zero.obj": (
         b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 0 1 2\n",
@@ -177,12 +180,16 @@ def test_the_kind_of_error_tells_a_bad_file_from_a_bad_shape(tmp_path):
             load_shape(tmp_path / name)
 
 
-@pytest.mark.parametrize("extension", [ext for ext in extensions() if ext not in (".gltf", ".xyz")])
+@pytest.mark.parametrize("extension", [*(ext for ext in extensions(writable=True) if ext != ".xyz"), ".mat"])
 def test_damaged_files_are_read_or_explained(tmp_path, extension):
     """Cut anywhere, or with bytes changed: a shape with finite vertices, or an error raised on purpose."""
     rng = np.random.default_rng(5)
     path = tmp_path / f"a{extension}"
-    save_shape(TriangleMesh(rng.normal(size=(12, 3)), rng.permutation(12).reshape(4, 3)), path)
+    mesh = TriangleMesh(rng.normal(size=(12, 3)), rng.permutation(12).reshape(4, 3))
+    if extension == ".mat":
+        savemat(path, {"surface": {"VERT": mesh.vertices, "TRIV": mesh.faces + 1}})
+    else:
+        save_shape(mesh, path)
     whole = path.read_bytes()
     for attempt in range(150):
         data = bytearray(whole[: rng.integers(1, len(whole))] if attempt % 2 else whole)
