@@ -1,4 +1,4 @@
-"""What must be there before Qt starts: Qt aborts without it where Python cannot catch anything, and blames something else."""
+"""What must be there before Qt starts: without it Qt aborts where Python cannot catch, and blames something else."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ def has_display(*, platform: str = sys.platform) -> bool:
 
 
 def restart_on_virtual_screen(arguments: list[str]) -> str:
-    """Run this program again on a screen that exists in memory only; returns only if that is impossible, with the reason."""
+    """Run this program again on a screen in memory; returns only if that is impossible, with the reason."""
     xvfb_run = shutil.which("xvfb-run")
     if xvfb_run is None or shutil.which("Xvfb") is None or shutil.which("xauth") is None:
         return "There is no display, and no virtual one to draw on. Install one: sudo apt-get install xvfb xauth"

@@ -8,7 +8,7 @@ from itertools import count
 import numpy as np
 from numpy.typing import NDArray
 
-from ..models.diffusion import REACH_MAX, REACH_MIN
+from ..models.diffusion import REACH_MAX, REACH_MIN, Conductivity
 from ..models.picks import Pick
 from ..models.results import AutodiffusionCurves, Results
 from ..models.session import Session, SessionState
@@ -32,7 +32,7 @@ class CurveRequest:
     """What the curves depend on; neither the shown θ nor t, which only move the crosshair."""
 
     shape: OpenShape
-    conductivity: str
+    conductivity: Conductivity
     alpha: float
     picks: tuple[Pick, ...]
 
@@ -89,7 +89,7 @@ class CurvesController:
         self._steps = _steps(tuple(each for each in self._curves if not each.is_complete))
         if same or not self._results.curves:
             self._results.set_curves(self._curves)
-        # Otherwise what is shown stays until there is something better: an empty plot at every slider event would flicker.
+        # Otherwise the shown curves stay until there is something better: empty plots would flicker under a slider.
 
     def _go_on(self) -> None:
         if not self._steps or self._request is None:
@@ -113,7 +113,7 @@ class CurvesController:
         self._go_on()
 
     def _milestones(self) -> set[int]:
-        """How many steps are left when it is worth drawing anew: after a quarter and a half of the angles, and at the end."""
+        """Steps left when it is worth drawing anew: after a quarter and a half of the angles, and at the end."""
         incomplete = max(1, sum(not each.is_complete for each in self._curves))
         return {0, ANGLE_COUNT // 2 * incomplete, 3 * ANGLE_COUNT // 4 * incomplete}
 

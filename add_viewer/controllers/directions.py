@@ -9,6 +9,7 @@ import numpy as np
 
 from add_core.geometry import TriangleMesh
 
+from ..models.diffusion import Conductivity
 from ..models.display import Display
 from ..models.results import DirectionField, FloatArray, Results
 from ..models.session import Session
@@ -16,7 +17,7 @@ from ..models.shapes import OpenShape
 from .operators import OperatorStore
 from .running import Run, explain
 
-PLACES = 900
+PLACES = 700
 
 
 class DirectionsController:
@@ -60,7 +61,7 @@ class _Places:
     directions: FloatArray
 
 
-def direction_field(shape: OpenShape, conductivity: str, operators: OperatorStore) -> DirectionField:
+def direction_field(shape: OpenShape, conductivity: Conductivity, operators: OperatorStore) -> DirectionField:
     """`PLACES` places, each as far as possible from the others, with the frame there."""
     frames = operators.laplacian(shape, conductivity, 0.0).frames
     if isinstance(shape.shape, TriangleMesh):
@@ -76,7 +77,7 @@ def direction_field(shape: OpenShape, conductivity: str, operators: OperatorStor
 def spread(points: FloatArray, wanted: int) -> tuple[np.ndarray, float]:
     """Indices of `wanted` of the `points` (n, 3), each the farthest from those before it, and their spacing.
 
-    Distances run straight through the body: for little marks on the skin that is even enough, and a hundred times faster.
+    Distances run straight through the body: for little marks on the skin that is even enough, and far faster.
     """
     chosen = np.zeros(min(wanted, len(points)), dtype=np.int64)
     away = np.full(len(points), np.inf)

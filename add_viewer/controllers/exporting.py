@@ -13,7 +13,7 @@ from ..models.results import AutodiffusionCurves, FloatArray
 
 
 def write_atomically(path: Path, write: Callable[[Path], None]) -> None:
-    """Call `write` with a temporary path beside `path` (same ending), then move it there: an old file is never half lost.
+    """Call `write` with a temporary path beside `path` (same ending), then move it there: no file is ever half lost.
 
     Raises OSError if the folder cannot be written to, and whatever `write` raises; `path` is then as it was.
     """

@@ -79,7 +79,7 @@ class KernelController:
 
 
 def compute_kernel(request: KernelRequest, operators: OperatorStore) -> KernelAnswer:
-    """Σ over the picks of h_αθt(pick, ·) with t = reach / λ₁, and λ₁ itself."""
+    """h_αθt(pick, ·) of each pick with t = reach / λ₁, and λ₁ itself."""
     shape, wanted = request.shape, request.diffusion
     laplacian = operators.laplacian(shape, wanted.conductivity, wanted.alpha)
     scale = laplacian.weyl_eigenvalue(1)
@@ -87,7 +87,5 @@ def compute_kernel(request: KernelRequest, operators: OperatorStore) -> KernelAn
         return KernelAnswer(scale, None)
     flow = operators.flow(shape, wanted.conductivity, wanted.alpha, "kernel")
     time = wanted.reach / scale
-    values = np.zeros(shape.vertex_count)
-    for pick in request.picks:
-        values += flow.kernel(pick.vertex, theta=wanted.theta, time=time)
-    return KernelAnswer(scale, KernelField(shape.key, values, wanted, time, request.picks))
+    columns = [flow.kernel(pick.vertex, theta=wanted.theta, time=time) for pick in request.picks]
+    return KernelAnswer(scale, KernelField(shape.key, np.stack(columns), wanted, time, request.picks))

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import OrderedDict
 from typing import Generic, TypeVar
 
-from add_core.operators import AnisotropicLaplacian
+from add_core.operators import AnisotropicLaplacian, Conductivity
 from add_core.spectra import HeatFlow
 
 from ..models.shapes import OpenShape
@@ -21,7 +21,7 @@ class OperatorStore:
         self._operators: _Latest[AnisotropicLaplacian] = _Latest(6)
         self._flows: _Latest[HeatFlow] = _Latest(4)
 
-    def laplacian(self, shape: OpenShape, conductivity: str, alpha: float) -> AnisotropicLaplacian:
+    def laplacian(self, shape: OpenShape, conductivity: Conductivity, alpha: float) -> AnisotropicLaplacian:
         """The operator of `shape`; frames and sparsity are shared between all α."""
         key = (id(shape), conductivity, alpha)
         found = self._operators.get(key)
@@ -29,7 +29,7 @@ class OperatorStore:
             found = self._operators.put(key, self._base(shape, conductivity).with_alpha(alpha))
         return found
 
-    def flow(self, shape: OpenShape, conductivity: str, alpha: float, purpose: str) -> HeatFlow:
+    def flow(self, shape: OpenShape, conductivity: Conductivity, alpha: float, purpose: str) -> HeatFlow:
         """A heat flow that keeps its factorisation; each `purpose` has its own, so that none evicts another's."""
         key = (id(shape), conductivity, alpha, purpose)
         found = self._flows.get(key)
@@ -37,7 +37,7 @@ class OperatorStore:
             found = self._flows.put(key, HeatFlow(self.laplacian(shape, conductivity, alpha)))
         return found
 
-    def _base(self, shape: OpenShape, conductivity: str) -> AnisotropicLaplacian:
+    def _base(self, shape: OpenShape, conductivity: Conductivity) -> AnisotropicLaplacian:
         key = (id(shape), conductivity)
         found = self._bases.get(key)
         if found is None:

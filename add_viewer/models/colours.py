@@ -25,7 +25,7 @@ MARKERS: tuple[tuple[float, float, float], ...] = (
     (0.560, 0.330, 0.190),
     (0.420, 0.420, 0.440),
 )
-"""One for each of eight picked points; after Okabe and Ito, so that colour-blind readers tell them apart, and bright enough for light and dark."""
+"""One for each of eight picked points, after Okabe and Ito: told apart by colour-blind readers, on light and dark."""
 
 _LMS_FROM_LAB = np.array(
     [[1.0, 0.3963377774, 0.2158037573], [1.0, -0.1055613458, -0.0638541728], [1.0, -0.0894841775, -1.2914855480]]

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from math import isfinite, pi
-from typing import Any
+from typing import Any, Literal
 
-CONDUCTIVITIES = ("curvature", "constant")
+Conductivity = Literal["curvature", "constant"]
+CONDUCTIVITIES: tuple[Conductivity, ...] = ("curvature", "constant")
 ALPHA_MAX = 200.0
 REACH_MIN, REACH_MAX = 2e-3, 5.0
 
@@ -22,7 +24,7 @@ class Diffusion:
         Time itself follows: t = reach / λ₁. A larger α slows heat; a constant reach keeps the picture comparable.
     """
 
-    conductivity: str = "curvature"
+    conductivity: Conductivity = "curvature"
     alpha: float = 50.0
     theta: float = 0.0
     reach: float = 0.03
@@ -30,14 +32,15 @@ class Diffusion:
     def with_changes(self, **changes: Any) -> Diffusion:
         """The same with `changes`, brought into range; numbers that are not finite are ignored."""
         kept = {name: value for name, value in changes.items() if isinstance(value, str) or isfinite(value)}
-        return replace(self, **{name: _RANGE[name](value) for name, value in kept.items()})
+        fitting: dict[str, Any] = {name: _RANGE[name](value) for name, value in kept.items()}
+        return replace(self, **fitting)
 
 
-def _known_conductivity(value: str) -> str:
-    return value if value in CONDUCTIVITIES else CONDUCTIVITIES[0]
+def _known_conductivity(value: str) -> Conductivity:
+    return "constant" if value == "constant" else "curvature"
 
 
-_RANGE = {
+_RANGE: dict[str, Callable[[Any], Any]] = {
     "conductivity": _known_conductivity,
     "alpha": lambda value: min(max(float(value), 0.0), ALPHA_MAX),
     "theta": lambda value: float(value) % pi,

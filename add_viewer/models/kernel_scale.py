@@ -12,7 +12,7 @@ FloatArray = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class KernelScale:
-    """Colour position in [0, 1] of a kernel's values: 1 at the maximum; 0 at no heat (linear) or `decades` below (log)."""
+    """Colour position in [0, 1] of values: 1 at the maximum; 0 at no heat (linear) or `decades` below (log)."""
 
     kind: str
     top: float

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,15 +19,25 @@ FloatArray = NDArray[np.float64]
 class KernelField:
     """A heat kernel on one shape.
 
-    values : (n,) Σ over the picks of h(pick, ·), unit 1/length².
+    columns : (P, n) h(pick, ·) of each pick, unit 1/length².
     diffusion, time : what it was computed for; time in length².
     """
 
     shape: str
-    values: FloatArray
+    columns: FloatArray
     diffusion: Diffusion
     time: float
     picks: tuple[Pick, ...]
+
+    @cached_property
+    def values(self) -> FloatArray:
+        """(n,) the heat of all picks together, unit 1/length²."""
+        return self.columns.sum(axis=0)
+
+    @cached_property
+    def shares(self) -> FloatArray:
+        """(n,) in [0, 1]: the largest of the kernels, each divided by its own maximum, so that none outshines another."""
+        return (self.columns / np.maximum(self.columns.max(axis=1, keepdims=True), 1e-300)).max(axis=0)
 
 
 @dataclass(frozen=True, eq=False)

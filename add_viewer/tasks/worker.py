@@ -24,7 +24,7 @@ class _Job:
 
 
 class Worker(QThread):
-    """Runs `work` on its thread and answers on the window's; a request that waits is replaced by a newer one of its lane.
+    """Runs work on its thread and answers on the window's; what waits is replaced by newer requests of its lane.
 
     Work that has begun is finished: it is short, and whoever asked drops late answers by ticket.
     """

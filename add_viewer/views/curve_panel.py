@@ -1,10 +1,16 @@
 """The curves at the picked points, linked to the θ dial and the t slider."""
 
+# Matplotlib's Qt backend has no types.
+# mypy: disable-error-code=no-untyped-call
+
 from __future__ import annotations
 
 from math import pi, radians
 from pathlib import Path
+from typing import Any
 
+from matplotlib.artist import Artist
+from matplotlib.axes import Axes
 from matplotlib.backend_bases import MouseEvent
 from matplotlib.backends.backend_qtagg import FigureCanvasQTAgg
 from matplotlib.figure import Figure
@@ -100,11 +106,15 @@ class CurvePanel(QWidget):
     def _draw_all(self) -> None:
         self.plots.draw_static(self.scene())
         self.canvas.draw()
-        self._draw_moving()
+        self.canvas.draw_artists(self.plots.moving_artists(self.scene()))
 
     def _draw_moving(self) -> None:
         if self._results.curves and self.isVisible():
-            self.canvas.draw_artists(self.plots.moving_artists(self.scene()))
+            scene = self.scene()
+            if self.plots.fits(scene):
+                self.canvas.draw_artists(self.plots.moving_artists(scene))
+            elif not self._renewal.isActive():
+                self._renewal.start()
 
     def set_relative(self, relative: bool) -> None:
         """Divide each curve by its mean over θ, or show it as it is."""
@@ -153,8 +163,8 @@ class _BlittedCanvas(FigureCanvasQTAgg):
     def __init__(self, figure: Figure) -> None:
         super().__init__(figure)
         self.place = lambda: None
-        self._background: object = None
-        self._moving: list = []
+        self._background: Any = None
+        self._moving: list[tuple[Axes, Artist]] = []
         self.mpl_connect("draw_event", self._drawn)
         self.setMinimumSize(200, 120)
 
@@ -162,7 +172,7 @@ class _BlittedCanvas(FigureCanvasQTAgg):
         super().resizeEvent(event)
         self.place()
 
-    def draw_artists(self, artists: list) -> None:
+    def draw_artists(self, artists: list[tuple[Axes, Artist]]) -> None:
         """Show `artists`, pairs of axes and artist, instead of those shown before."""
         self._moving = artists
         if self._background is not None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from matplotlib.artist import Artist
@@ -12,7 +13,7 @@ from matplotlib.figure import Figure
 from ..models.colours import MARKERS, theta_colour
 from ..models.curve_reading import once_around, over_theta, over_time
 from ..models.diffusion import REACH_MAX, REACH_MIN
-from ..models.results import AutodiffusionCurves, FloatArray
+from ..models.results import AutodiffusionCurves
 from .theme import Theme
 
 OTHER_TIMES = ((0.1, 0.9, "t/10"), (10.0, 0.9, "10 t"))
@@ -42,7 +43,7 @@ class CurvePlots:
         self.theta_axes = figure.add_axes((0.1, 0.2, 0.2, 0.6))
         self.polar_axes = figure.add_axes((0.4, 0.2, 0.2, 0.6), projection="polar")
         self.time_axes = figure.add_axes((0.7, 0.2, 0.2, 0.6))
-        self._scene: CurveScene | None = None
+        self._limits = (0.0, 1.0)
 
     def lay_out(self, width: float, height: float) -> None:
         """Place the plots in a figure of this size in points: labels need room that does not shrink with it."""
@@ -62,7 +63,6 @@ class CurvePlots:
 
     def draw_static(self, scene: CurveScene) -> None:
         """Axes, labels and limits."""
-        self._scene = scene
         for axes in self.all_axes:
             axes.clear()
             _style(axes, scene.theme)
@@ -83,18 +83,18 @@ class CurvePlots:
             color=scene.theme.text,
             pad=4,
         )
-        low, high = _theta_limits(scene)
+        low, high = self._limits = _theta_limits(scene)
         axes.set_yscale("linear" if scene.relative else "log")
         axes.set_ylim(low, high)
 
     def _static_polar(self, scene: CurveScene) -> None:
-        axes = self.polar_axes
+        axes: Any = self.polar_axes
         labels = ["0°", "45°", "90°", "135°", "", "", "", ""]
         axes.set_thetagrids(range(0, 360, 45), labels)
         axes.tick_params(axis="x", pad=-3)
         axes.set_yticks([1.0])
         axes.set_yticklabels([])
-        axes.set_ylim(0, max(1.3, 1.06 * _largest_share(scene)))
+        axes.set_ylim(0, max(1.3, 1.06 * _shown_range(scene)[1]))
 
     def _static_time(self, scene: CurveScene) -> None:
         axes = self.time_axes
@@ -107,6 +107,13 @@ class CurvePlots:
         values = [row for each in scene.shown for row in (each.values, each.isotropic) if row is not None]
         if values:
             axes.set_ylim(0.6 * min(v.min() for v in values), 1.6 * max(v.max() for v in values))
+
+    def fits(self, scene: CurveScene) -> bool:
+        """Whether the drawn axes still suit the curves: none is cut, and they fill a good part of the plot."""
+        low, high = _theta_limits(scene)
+        drawn = self._limits[1] - self._limits[0]
+        inside = low >= self._limits[0] - 1e-9 and high <= self._limits[1] + 1e-9
+        return not scene.relative or (inside and high - low >= 0.5 * drawn)
 
     # -- what moves ---------------------------------------------------------------------------------------------------
 
@@ -122,10 +129,9 @@ class CurvePlots:
     def _theta_lines(self, scene: CurveScene, curves: AutodiffusionCurves) -> list[tuple[Axes, Artist]]:
         colour, style = MARKERS[curves.pick.slot], ":" if curves.pick.is_mirror else "-"
         lines: list[tuple[Axes, Artist]] = []
-        others = OTHER_TIMES if len(scene.shown) <= 2 else ()
-        for factor, width, alpha in ((1.0, 2.0, 1.0), *((f, w, 0.55) for f, w, _ in others)):
-            if not REACH_MIN <= scene.reach * factor <= REACH_MAX:
-                continue
+        looks = {1.0: (2.0, 1.0)} | {factor: (width, 0.55) for factor, width, _ in OTHER_TIMES}
+        for factor in _factors(scene):
+            width, alpha = looks[factor]
             values = over_theta(curves, scene.reach * factor)
             look = {"color": colour, "ls": style, "lw": width, "alpha": alpha, "animated": True}
             if factor > 1:
@@ -183,19 +189,24 @@ def _style(axes: Axes, theme: Theme) -> None:
     axes.yaxis.label.set(color=theme.muted, size=8)
 
 
-def _shares(scene: CurveScene) -> list[FloatArray]:
-    return [each.values / each.values.mean(axis=0) for each in scene.shown]
+def _factors(scene: CurveScene) -> tuple[float, ...]:
+    """Which multiples of the shown time are drawn: with many points only itself."""
+    others = tuple(factor for factor, _, _ in OTHER_TIMES) if len(scene.shown) <= 2 else ()
+    return tuple(factor for factor in (1.0, *others) if REACH_MIN <= scene.reach * factor <= REACH_MAX)
 
 
-def _largest_share(scene: CurveScene) -> float:
-    shares = _shares(scene)
-    return float(max(share.max() for share in shares)) if shares else 1.0
+def _shown_range(scene: CurveScene) -> tuple[float, float]:
+    """Least and greatest of what is drawn, each curve divided by its mean."""
+    lines = [over_theta(each, scene.reach * factor) for each in scene.shown for factor in _factors(scene)]
+    shares = [line / line.mean() for line in lines]
+    return (min(s.min() for s in shares), max(s.max() for s in shares)) if shares else (0.5, 1.5)
 
 
 def _theta_limits(scene: CurveScene) -> tuple[float, float]:
-    if not scene.shown:
-        return (0.5, 1.5) if scene.relative else (0.1, 10.0)
     if scene.relative:
-        low = min(share.min() for share in _shares(scene))
-        return max(0.0, low - 0.06), _largest_share(scene) + 0.06
+        low, high = _shown_range(scene)
+        gap = 0.08 * max(high - low, 0.1)
+        return max(0.0, low - gap), high + gap
+    if not scene.shown:
+        return 0.1, 10.0
     return 0.7 * min(each.values.min() for each in scene.shown), 1.4 * max(each.values.max() for each in scene.shown)

@@ -62,7 +62,8 @@ class ThetaDial(QWidget):
 
     def place_of(self, theta: float, share: float = 0.8) -> QPointF:
         """Where the pointer's end lies for `theta`, at a share of the radius."""
-        return self._centre + share * self._radius * QPointF(cos(theta), -sin(theta))
+        reach = share * self._radius
+        return self._centre + QPointF(reach * cos(theta), -reach * sin(theta))
 
     @property
     def _centre(self) -> QPointF:

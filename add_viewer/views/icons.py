@@ -8,4 +8,5 @@ from PySide6.QtGui import QIcon
 
 def icon(name: str, colour: str) -> QIcon:
     """The icon `name` of the set, e.g. "mdi6.folder-open-outline", drawn in `colour`."""
-    return qtawesome.icon(name, color=colour)
+    made: QIcon = qtawesome.icon(name, color=colour)
+    return made

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from pathlib import Path
 
 from PySide6.QtCore import QPoint, Qt, Signal
@@ -25,11 +26,12 @@ from ..models.display import Display
 from ..models.results import Notice, Results
 from ..models.session import Session
 from .curve_panel import CurvePanel
+from .icons import icon
 from .menus import Menus
 from .message_bar import MessageBar
 from .parameter_panel import ParameterPanel
 from .settings import Settings
-from .shape_view import ShapeView
+from .shape_view import IDLE_TEXT, ShapeView
 from .start_page import Gallery, StartPage
 from .theme import GRID, apply_theme, theme_of
 
@@ -126,7 +128,7 @@ class MainWindow(QMainWindow):
         self.start.chosen.connect(self.open_requested)
         looks = ("front", "back", "left", "right", "top")
         for name in looks:
-            self.menus.on(name, lambda name=name: self.view.canvas.look(name))
+            self.menus.on(name, partial(self.view.canvas.look, name))
         self.menus.on("fit", self.view.canvas.fit)
         self.menus.on("undo", self.session.undo)
         self.menus.on("redo", self.session.redo)
@@ -148,6 +150,7 @@ class MainWindow(QMainWindow):
         self.parameters.play.setChecked(False)
         for name in ("close", "screenshot", "go_to", "fit", "play", "front", "back", "left", "right", "top"):
             self.menus.actions[name].setEnabled(shape is not None)
+        self.hover_label.setText("" if shape is None else IDLE_TEXT)
         self._show_docks(shape is not None and self.pages.currentWidget() is self.view)
 
     def _show_docks(self, on: bool) -> None:
@@ -191,7 +194,8 @@ class MainWindow(QMainWindow):
 
     def _show_theme(self) -> None:
         theme = theme_of(self.display["theme"])
-        apply_theme(QApplication.instance(), theme)
+        apply_theme(theme)
+        self.setWindowIcon(icon("mdi6.blur-radial", theme.accent))
         for part in (self.menus, self.view, self.start, self.message, self.parameters, self.curves):
             part.show_theme(theme)
 

@@ -26,9 +26,9 @@ class MessageBar(QFrame):
         layout = QHBoxLayout(self)
         layout.setContentsMargins(2 * GRID, GRID, GRID, GRID)
         layout.setSpacing(GRID)
-        layout.addWidget(self._icon, alignment=Qt.AlignmentFlag.AlignTop)
+        layout.addWidget(self._icon)
         layout.addWidget(self.text, stretch=1)
-        layout.addWidget(self.close_button, alignment=Qt.AlignmentFlag.AlignTop)
+        layout.addWidget(self.close_button)
         self.hide()
 
     def show_notice(self, notice: Notice) -> None:

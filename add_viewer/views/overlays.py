@@ -117,12 +117,12 @@ class AxesTriad(Overlay):
         centre = QPointF(self.width() / 2, self.height() / 2)
         for index in np.argsort(self._axes[2]):  # the farthest first
             right, up, near = self._axes[:, index]
-            end = centre + 21 * QPointF(right, -up)
+            end = centre + QPointF(21 * right, -21 * up)
             colour = QColor(self.COLOURS[index])
             colour.setAlpha(255 if near > -0.2 else 120)
             painter.setPen(round_pen(colour, 2))
             painter.drawLine(centre, end)
-            label = centre + 28 * QPointF(right, -up)
+            label = centre + QPointF(28 * right, -28 * up)
             if abs(near) < 0.93:
                 box = QRectF(label.x() - 8, label.y() - 8, 16, 16)
                 painter.drawText(box, Qt.AlignmentFlag.AlignCenter, "xyz"[index])

@@ -23,7 +23,10 @@ PLAY_SPEED = radians(30.0)
 """θ per second while it plays."""
 
 ALPHA_HELP = "Degree of anisotropy α: 0 lets heat run alike in all directions, more confines it to one."
-THETA_HELP = "Direction θ in which heat runs, counter-clockwise from the direction of maximum curvature. Ctrl snaps to 15°, Space plays."
+THETA_HELP = (
+    "Direction θ in which heat runs, counter-clockwise from the direction of maximum curvature. "
+    "Ctrl snaps to 15°, Space plays."
+)
 TIME_HELP = (
     "Diffusion time t: how long heat runs. The slider keeps t·λ₁ when α changes, since a larger α slows heat: "
     "λ₁ is Weyl's estimate of the first eigenvalue."
@@ -88,8 +91,9 @@ class ParameterPanel(QWidget):
             widget.setToolTip(THETA_HELP)
         top = QHBoxLayout()
         top.setSpacing(GRID // 2)
-        for widget, stretch in ((label, 1), (self.play, 0), (self.theta, 0), (unit, 0)):
-            top.addWidget(widget, stretch)
+        top.addWidget(label, 1)
+        for control in (self.play, self.theta, unit):
+            top.addWidget(control)
         row = QWidget()
         column = QVBoxLayout(row)
         column.setContentsMargins(0, 0, 0, 0)

@@ -69,6 +69,7 @@ class PickList(QWidget):
         self.clear_button.setEnabled(bool(picks))
         for chip in self.chips:
             self._chip_grid.removeWidget(chip)
+            chip.hide()  # until it is deleted it would lie over the others
             chip.deleteLater()
         self.chips = [self._chip(pick) for pick in picks] if len(picks) > 1 else []
         for index, chip in enumerate(self.chips):

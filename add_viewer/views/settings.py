@@ -43,7 +43,7 @@ class Settings:
     @property
     def recent(self) -> list[str]:
         kept = self._store.value("recent", [])
-        return [kept] if isinstance(kept, str) else [str(each) for each in kept or []]
+        return [kept] if isinstance(kept, str) else [str(each) for each in kept] if isinstance(kept, list) else []
 
     def add_recent(self, reference: str) -> None:
         """Put `reference` first."""

@@ -15,6 +15,7 @@ from .canvas import Canvas
 from .overlays import AxesTriad, ColourBar, CornerLabel, Hint, Overlay
 from .theme import GRID, Theme
 
+IDLE_TEXT = "Click picks a point · drag turns · wheel zooms · right click for more"
 _FRONTS = {"y": "+z", "z": "-y"}
 
 
@@ -94,11 +95,15 @@ class ShapeView(QWidget):
         if shown is None:
             self.canvas.show_field(None)
             return
-        scale = KernelScale.of(shown.values, self._display["kernel_scale"])
-        self.canvas.show_field(scale.position(shown.values))
-        symbol = "h(x, ·)" if len(shown.picks) == 1 else "Σ h(x, ·)"
+        single = len(shown.picks) == 1
+        values = shown.values if single else shown.shares
+        scale = KernelScale.of(values, self._display["kernel_scale"])
+        self.canvas.show_field(scale.position(values))
         kind = "log scale" if scale.kind == "log" else "linear scale"
-        self.colour_bar.show_scale(f"Heat kernel {symbol}", ("unit 1/⌀²", f"{kind}, dark = maximum"), scale.ticks())
+        if single:
+            self.colour_bar.show_scale("Heat kernel h(x, ·)", ("unit 1/⌀²", kind), scale.ticks())
+        else:
+            self.colour_bar.show_scale("Heat kernels h(x, ·)", ("each ÷ its maximum", kind), scale.ticks())
 
     def _show_directions(self) -> None:
         directions, shape = self._results.directions, self._session.state.active
@@ -140,10 +145,11 @@ class ShapeView(QWidget):
 
     def _hover(self, vertex: int) -> None:
         if vertex < 0:
-            self.hovered.emit("")
+            self.hovered.emit(IDLE_TEXT)
             return
         field = self._results.kernel
-        value = f"   h = {field.values[vertex]:.4g} /⌀²" if field is not None else ""
+        symbol = "h" if field is None or len(field.picks) == 1 else "Σ h"
+        value = f"   {symbol} = {field.values[vertex]:.4g} /⌀²" if field is not None else ""
         self.hovered.emit(f"Vertex {vertex}{value}")
 
     # -- layout and pictures ------------------------------------------------------------------------------------------

@@ -74,8 +74,10 @@ def theme_of(choice: str) -> Theme:
     return DARK if choice == "dark" else LIGHT
 
 
-def apply_theme(app: QApplication, theme: Theme) -> None:
-    """Give `theme` to every window of `app`."""
+def apply_theme(theme: Theme) -> None:
+    """Give `theme` to every window of the app."""
+    app = QApplication.instance()
+    assert isinstance(app, QApplication)
     app.setStyle("Fusion")
     app.setPalette(_palette(theme))
     app.setStyleSheet(_style_sheet(theme))

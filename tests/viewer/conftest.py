@@ -96,7 +96,7 @@ class Person:
 
     def open(self, reference: str = "humans/0") -> None:
         self.window.open_requested.emit(reference)
-        self.qtbot.waitUntil(lambda: self.session.state.active is not None, timeout=20000)
+        self.qtbot.waitUntil(lambda: self.session.state.active_key == reference, timeout=20000)
         self.qtbot.waitUntil(lambda: self.results.weyl_eigenvalue is not None, timeout=20000)
 
     def place(self, vertex: int):

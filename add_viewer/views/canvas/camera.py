@@ -72,7 +72,7 @@ class OrbitCamera:
         self.focal = self.focal - self.picture_height * (dx * right + dy * up)
 
     def zoom(self, factor: float, x: float = 0.0, y: float = 0.0) -> None:
-        """Come closer by `factor`, keeping the place at (x, y) — shares of the picture's height from its centre — in place."""
+        """Come closer by `factor`; the place at (x, y), in picture heights from its centre, stays where it is."""
         before = self.picture_height
         self.distance = min(max(self.distance / factor, 1e-3), 1e3)
         right, up, _ = self.axes

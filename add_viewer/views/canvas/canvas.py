@@ -32,7 +32,7 @@ VIEWS = {"front": (0.0, 0.0), "back": (180.0, 0.0), "left": (90.0, 0.0), "right"
 class Canvas(View3D):
     """One shape, its field, its markers. Emits what a person does; draws what it is told.
 
-    vertex_hovered : the vertex under the cursor or -1. vertex_clicked : vertex (-1 beside the shape) and keyboard modifiers.
+    vertex_hovered : the vertex under the cursor or -1. vertex_clicked : vertex (-1 beside the shape) and modifier keys.
     menu_requested : global place and vertex or -1. camera_moved : the picture's axes turned.
     """
 
@@ -66,7 +66,7 @@ class Canvas(View3D):
         if self._body is not None:
             self._remove([self._body.actor])
         self._body = None if opened is None else Surface(opened.shape)
-        if self._body is not None:
+        if opened is not None and self._body is not None:
             self.renderer.AddActor(self._body.actor)
             self.camera_model.orient(up, front)
             self.look("front")
@@ -128,7 +128,7 @@ class Canvas(View3D):
     # -- camera -------------------------------------------------------------------------------------------------------
 
     def look(self, view: str) -> None:
-        """Look from "front", "back", "left", "right" (the shape's own left and right) or "top", the whole shape in view."""
+        """Look from "front", "back", "left", "right" (the shape's own) or "top", with the whole shape in view."""
         self.camera_model.azimuth, self.camera_model.elevation = VIEWS[view]
         self.fit()
 
@@ -177,14 +177,16 @@ class Canvas(View3D):
         self.renderer.SetDisplayPoint(x, y, depth)
         self.renderer.DisplayToWorld()
         point = np.array(self.renderer.GetWorldPoint())
-        return point[:3] / point[3]
+        world: FloatArray = point[:3] / point[3]
+        return world
 
     def _to_screen(self) -> FloatArray:
         width, height = self.render_window.GetSize()
         matrix = self.renderer.GetActiveCamera().GetCompositeProjectionTransformMatrix(width / height, 0.0, 1.0)
         project = np.array([[matrix.GetElement(i, j) for j in range(4)] for i in range(4)])
         window = np.array([[width / 2, 0, 0, width / 2], [0, height / 2, 0, height / 2], [0, 0, 1, 0], [0, 0, 0, 1]])
-        return window @ project
+        screen: FloatArray = window @ project
+        return screen
 
     # -- mouse --------------------------------------------------------------------------------------------------------
 
@@ -271,7 +273,7 @@ class Canvas(View3D):
 
     @contextmanager
     def _fine_render(self, *, transparent: bool) -> Iterator[None]:
-        """Smooth edges from many samples, too slow for live pictures; black behind, so that edges come premultiplied."""
+        """Smooth edges from many samples, too slow for live pictures; transparent is black, as premultiplied needs."""
         renderer, window = self.renderer, self.render_window
         kept = renderer.GetBackground(), renderer.GetGradientBackground(), window.GetMultiSamples()
         self.disable_anti_aliasing()
@@ -319,7 +321,7 @@ def _normals(shape: Shape) -> FloatArray | None:
 
 
 def _add_lights(view: View3D) -> None:
-    """A gentle key from the upper left and a weak fill from the right; both move with the eye, so no side is ever black."""
+    """A gentle key from the upper left and a weak fill from the right; both move with the eye: no side is black."""
     for place, intensity in (((-0.5, 0.7, 1.0), 0.66), ((1.0, 0.1, 0.5), 0.30), ((0.0, 0.0, 1.0), 0.26)):
         light = pv.Light(position=place, focal_point=(0, 0, 0), light_type="camera light", intensity=intensity)
         view.add_light(light)

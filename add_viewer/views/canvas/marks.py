@@ -14,7 +14,7 @@ FloatArray = NDArray[np.float64]
 
 _WHITE = (1.0, 1.0, 1.0)
 _BALL = 0.0095
-_NEEDLE_WIDTH, _NEEDLE_LENGTH, _NEEDLE_LIFT = 0.11, 0.78, 0.0022
+_NEEDLE_WIDTH, _NEEDLE_LENGTH, _NEEDLE_LIFT = 0.19, 0.90, 0.0026
 
 
 def marker_actors(picks: tuple[Pick, ...], vertices: FloatArray, normals: FloatArray | None) -> list[pv.Actor]:
@@ -69,7 +69,7 @@ class Needles:
         self._across = np.cross(field.normals, field.max_directions)
         count = len(field.positions)
         corners = 4 * np.arange(count)[:, None]
-        faces = np.concatenate([corners + [0, 1, 2], corners + [0, 2, 3]], axis=1).reshape(-1, 3)
+        faces = (corners + np.array([0, 1, 2, 0, 2, 3])).reshape(-1, 3)
         self.dataset = pv.PolyData.from_regular_faces(np.zeros((4 * count, 3), dtype=np.float32), faces)
         self.actor = _flat_actor(self.dataset, (0.0, 0.0, 0.0))
         self.actor.prop.ambient, self.actor.prop.diffuse = 1.0, 0.0

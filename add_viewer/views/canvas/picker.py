@@ -27,7 +27,8 @@ class MeshPicker:
         """The vertex for a ray between two points in the shape's space."""
         at, place, barycentric = mutable(0.0), [0.0] * 3, [0.0] * 3
         part, cell = mutable(0), mutable(0)
-        if not self._locator.IntersectWithLine(near, far, 0.0, at, place, barycentric, part, cell):
+        hit = self._locator.IntersectWithLine
+        if not hit(near, far, 0.0, at, place, barycentric, part, cell):  # type: ignore[call-overload]
             return None
         corners = self._faces[int(cell)]
         return int(corners[np.argmin(((self._points[corners] - place) ** 2).sum(axis=1))])

@@ -64,7 +64,7 @@ class Surface:
 def _dataset(shape: Shape) -> pv.PolyData:
     if isinstance(shape, TriangleMesh):
         dataset = pv.PolyData.from_regular_faces(shape.vertices.astype(np.float32), shape.faces)
-        normals = shape.vertex_normals
+        normals: FloatArray | None = shape.vertex_normals
     else:
         dataset = pv.PolyData(shape.vertices.astype(np.float32))
         normals = shape.normals

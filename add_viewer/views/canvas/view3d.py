@@ -31,7 +31,7 @@ class View3D(QtInteractor):  # type: ignore[misc]
             self.update()
 
     def paintGL(self) -> None:
-        iren = self.__dict__.get("_Iren")
+        iren: Any = self.__dict__.get("_Iren")
         if getattr(self, "_closed", False) or not hasattr(iren, "EnableRenderOn"):
             return
         iren.EnableRenderOn()

@@ -55,7 +55,9 @@ def test_the_curves_are_the_core_s_autodiffusion(parts, run, torus):
     assert curves.values[3] == pytest.approx(expected[0], rel=1e-5)
     isotropic = OperatorStore().laplacian(torus, "curvature", 0.0)
     times = curve_reaches() / isotropic.weyl_eigenvalue(1)
-    assert curves.isotropic == pytest.approx(HeatFlow(isotropic).autodiffusion(5, thetas=[0.0], times=times)[0], rel=1e-5)
+    assert curves.isotropic == pytest.approx(
+        HeatFlow(isotropic).autodiffusion(5, thetas=[0.0], times=times)[0], rel=1e-5
+    )
 
 
 def test_turning_theta_pauses_the_work_and_keeps_what_is_there(parts, run):

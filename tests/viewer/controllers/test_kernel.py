@@ -47,6 +47,8 @@ def test_several_picks_add_their_heat(parts, run, torus):
         fields.append(results.kernel.values)
     session.pick(5, add=True)
     run.answer_all()
+    assert results.kernel.columns == pytest.approx(np.stack(fields[::-1]))
+    assert results.kernel.shares.max() == pytest.approx(1.0)
     assert results.kernel.values == pytest.approx(sum(fields))
     assert results.kernel.values @ torus.shape.vertex_areas == pytest.approx(2.0, rel=1e-6)  # unit heat from each
 
