@@ -3,12 +3,17 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from .._check import FloatArray, points_array, read_only
 from ..errors import GeometryError
+from .fans import Fans, build_fans
+from .neighbours import DistinctPoints, distinct_points
+from .normals import estimate_normals
+from .tangent_planes import TangentPlanes
 
 
 @dataclass(frozen=True, eq=False)
@@ -16,7 +21,8 @@ class PointCloud:
     """Points sampled from a surface, in the shape's own length unit.
 
     points : (n, 3) float64, kept in the order given.
-    normals : (n, 3) or None; made unit length, taken as outward. Without them they are estimated where they are needed.
+    normals : (n, 3) or None; made unit length, taken as outward. Without them they are estimated where they are
+        needed.
     name : what to call the shape in messages and windows.
 
     Raises GeometryError if an array has the wrong shape or a value is not finite, or a given normal has no length.
@@ -43,6 +49,34 @@ class PointCloud:
     @property
     def vertex_count(self) -> int:
         return len(self.points)
+
+    @cached_property
+    def distinct(self) -> DistinctPoints:
+        """The places where points lie; several points may share one."""
+        return distinct_points(self.points)
+
+    @cached_property
+    def outward_normals(self) -> FloatArray:
+        """(n, 3), unit: the normals given, or estimated by total least squares and turned outward."""
+        if self.normals is not None:
+            return self.normals
+        return read_only(estimate_normals(self.points[self.distinct.first])[self.distinct.place])
+
+    @cached_property
+    def tangent_planes(self) -> TangentPlanes:
+        """Tangent planes and neighbours of the `distinct` points."""
+        first = self.distinct.first
+        return TangentPlanes.of(self.points[first], self.outward_normals[first])
+
+    @cached_property
+    def fans(self) -> Fans:
+        """The triangles around every point: what a cloud has in place of faces."""
+        return build_fans(self.points, self.outward_normals, self.tangent_planes, self.distinct)
+
+    @property
+    def area(self) -> float:
+        """Area of the surface that the points were taken from, estimated from the fans; unit length²."""
+        return float(self.fans.weights @ self.fans.areas)
 
 
 def _unit_normals(normals: ArrayLike, count: int) -> FloatArray:

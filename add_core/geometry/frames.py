@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import logging
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 
 import numpy as np
 
 from .._check import BoolArray, FloatArray, IntArray, read_only
+from .cloud import PointCloud
+from .cloud_curvature import point_curvature_tensors
 from .curvature import face_curvature_tensors
 from .direction_field import TangentBasis, fill_axes
 from .mesh import TriangleMesh
@@ -45,13 +47,13 @@ class PrincipalFrames:
     confidence: FloatArray
 
 
-def principal_curvatures(shape: TriangleMesh) -> PrincipalFrames:
+def principal_curvatures(shape: TriangleMesh | PointCloud) -> PrincipalFrames:
     """Principal frames per face of a mesh (Cohen-Steiner and Morvan 2003) or per point of a cloud (section 6).
 
     Boundaries, several components and faces without area are allowed. Faces turned against their neighbours are
     taken the way most of their piece is turned, and a warning says so: θ would run the other way on them.
     """
-    return _mesh_frames(shape)
+    return _cloud_frames(shape) if isinstance(shape, PointCloud) else _mesh_frames(shape)
 
 
 def frames_from_tensors(
@@ -104,6 +106,23 @@ def _mesh_frames(mesh: TriangleMesh) -> PrincipalFrames:
         size=float(np.sqrt(mesh.area / (4 * np.pi))),
         usable=mesh.has_area,
     )
+
+
+def _cloud_frames(cloud: PointCloud) -> PrincipalFrames:
+    first, place = cloud.distinct.first, cloud.distinct.place
+    corners = place[cloud.fans.triangles]
+    pairs = np.sort(corners[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
+    touched = np.zeros(len(first), dtype=bool)
+    touched[corners] = True
+    frames = frames_from_tensors(
+        point_curvature_tensors(cloud.tangent_planes),
+        cloud.outward_normals[first],
+        cloud.points[first],
+        neighbours=np.unique(pairs, axis=0),
+        size=float(np.sqrt(cloud.area / (4 * np.pi))),
+        usable=touched,
+    )
+    return PrincipalFrames(*(read_only(getattr(frames, field.name)[place]) for field in fields(frames)))
 
 
 def _agreeing(mesh: TriangleMesh) -> TriangleMesh:

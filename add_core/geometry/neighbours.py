@@ -1,4 +1,4 @@
-"""Nearest neighbours of a cloud's points."""
+"""Nearest neighbours of a cloud's points, and points that lie in one place."""
 
 from __future__ import annotations
 
@@ -6,9 +6,13 @@ from dataclasses import dataclass
 
 import numpy as np
 from scipy.sparse import coo_array, csr_array
+from scipy.sparse.csgraph import connected_components
 from scipy.spatial import KDTree
 
-from .._check import FloatArray, IntArray
+from .._check import FloatArray, IntArray, read_only
+
+ONE_PLACE = 1e-9
+"""Points nearer than this share of the cloud's extent lie in one place: no direction leads from one to the other."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -24,12 +28,18 @@ class Neighbours:
     @property
     def lengths(self) -> csr_array:
         """(n, n): a graph of distances between neighbours, to be read as undirected; duplicates are 0 apart."""
-        n, k = self.indices.shape
-        i, j, d = np.repeat(np.arange(n), k), self.indices.ravel(), self.distances.ravel()
-        low, high = np.minimum(i, j), np.maximum(i, j)
-        # A stored zero means "no edge" to nobody here: csgraph keeps explicit zeros of sparse input.
-        order = np.unique(low * n + high, return_index=True)[1]
-        return csr_array(coo_array((d[order], (low[order], high[order])), shape=(n, n)))
+        return undirected(self.indices, self.distances)
+
+
+@dataclass(frozen=True, eq=False)
+class DistinctPoints:
+    """The places of a cloud, each once.
+
+    first : (d,), the first point at each place, ascending. place : (n,), which place each point is at.
+    """
+
+    first: IntArray
+    place: IntArray
 
 
 def nearest_neighbours(points: FloatArray, count: int) -> Neighbours:
@@ -42,3 +52,32 @@ def nearest_neighbours(points: FloatArray, count: int) -> Neighbours:
     own = indices == np.arange(n)[:, None]
     own[~own.any(axis=1), -1] = True
     return Neighbours(indices[~own].reshape(n, k).astype(np.int64), distances[~own].reshape(n, k))
+
+
+def undirected(indices: IntArray, values: FloatArray) -> csr_array:
+    """(n, n): upper triangle of a graph with the edges i – indices[i, :] and their values (n, k), zeros stored as
+    such."""
+    n, k = indices.shape
+    i, j, value = np.repeat(np.arange(n), k), indices.ravel(), values.ravel()
+    low, high = np.minimum(i, j), np.maximum(i, j)
+    _, once = np.unique(low * n + high, return_index=True)
+    return csr_array(coo_array((value[once], (low[once], high[once])), shape=(n, n)))
+
+
+def distinct_points(points: FloatArray) -> DistinctPoints:
+    """The places of a cloud; points nearer than `ONE_PLACE` of its extent share one, chains of them included."""
+    n = len(points)
+    reach = ONE_PLACE * float(np.ptp(points, axis=0).max())
+    _, place = np.unique(points, axis=0, return_inverse=True)  # exact duplicates first: a thousand are a million pairs
+    first = _first_of_each(place.ravel())
+    pairs = KDTree(points[first]).query_pairs(reach, output_type="ndarray")
+    graph = csr_array((np.ones(len(pairs), dtype=np.int8), (pairs[:, 0], pairs[:, 1])), shape=(len(first),) * 2)
+    joined = connected_components(graph, directed=False)[1].astype(np.int64)[place.ravel()]
+    first = np.sort(_first_of_each(joined))
+    number = np.empty(n, dtype=np.int64)
+    number[joined[first]] = np.arange(len(first))
+    return DistinctPoints(read_only(first), read_only(number[joined]))
+
+
+def _first_of_each(labels: IntArray) -> IntArray:
+    return np.asarray(np.unique(labels, return_index=True)[1], dtype=np.int64)

@@ -30,8 +30,9 @@ class Elements:
 
     @classmethod
     def of(cls, shape: TriangleMesh | PointCloud, frames: PrincipalFrames) -> Elements:
-        """The elements of a mesh: its faces with area. A face without area carries no heat and is left out."""
-        return _faces(shape, frames)
+        """A mesh's faces with area (one without carries no heat and is left out), or all triangles of a cloud's
+        fans."""
+        return _fans(shape, frames) if isinstance(shape, PointCloud) else _faces(shape, frames)
 
     @property
     def weighted_areas(self) -> FloatArray:
@@ -69,4 +70,22 @@ def _faces(mesh: TriangleMesh, frames: PrincipalFrames) -> Elements:
         along_max=np.einsum("tci,ti->tc", edges, frames.max_direction[kept]),
         along_min=np.einsum("tci,ti->tc", edges, frames.min_direction[kept]),
         frames=kept,
+    )
+
+
+def _fans(cloud: PointCloud, frames: PrincipalFrames) -> Elements:
+    fans = cloud.fans
+    centre = fans.triangles[:, 0]
+    normal = np.cross(fans.edges[:, 0], fans.edges[:, 1])
+    normal /= np.linalg.norm(normal, axis=1, keepdims=True)
+    # The frame of the centre, laid into the triangle: u_M follows, u_m stands across it.
+    across = np.cross(normal, frames.max_direction[centre])
+    across /= np.maximum(np.linalg.norm(across, axis=1, keepdims=True), np.finfo(float).tiny)
+    return Elements(
+        corners=fans.triangles,
+        areas=fans.areas,
+        weights=fans.weights,
+        along_max=np.einsum("tci,ti->tc", fans.edges, np.cross(across, normal)),
+        along_min=np.einsum("tci,ti->tc", fans.edges, across),
+        frames=centre,
     )

@@ -1,0 +1,102 @@
+"""Triangle fans: what a point cloud has in place of faces."""
+
+from __future__ import annotations
+
+import logging
+from dataclasses import dataclass
+
+import numpy as np
+
+from .._check import BoolArray, FloatArray, IntArray, read_only
+from .arcs import arc_edges
+from .delaunay_stars import delaunay_stars
+from .neighbours import DistinctPoints
+from .tangent_planes import TangentPlanes
+
+_log = logging.getLogger(__name__)
+_TIE = 1e-7  # share of the spacing squared by which points on one circle are told apart
+
+
+@dataclass(frozen=True, eq=False)
+class Fans:
+    """For every point the triangles around it in the Delaunay triangulation of its neighbours in its tangent plane.
+
+    triangles : (t, 3) point numbers, the centre of the fan first, counter-clockwise about the centre's normal.
+    weights : (t,), > 0, how much of the surface each triangle stands for. 1/3 where the fans of all three corners
+        hold it, so that they make up one triangle together; where fans disagree, such that together they cover the
+        surface once.
+    edges : (t, 3, 3), the edge opposite to each corner, counter-clockwise, as long as the arc that it stands for.
+    areas : (t,), unit length², > 0, of triangles with these edges.
+    isolated : the points that no triangle touches; nothing runs to or from them.
+    """
+
+    triangles: IntArray
+    weights: FloatArray
+    edges: FloatArray
+    areas: FloatArray
+    isolated: IntArray
+
+
+def build_fans(points: FloatArray, normals: FloatArray, planes: TangentPlanes, distinct: DistinctPoints) -> Fans:
+    """Fans of a cloud from the tangent planes of its distinct points.
+
+    Neighbours across a limb or a gap are left out of a fan, unless a point would be left without any triangle. A
+    point on the boundary has an open fan. Points in one place share the fans around it: they take their turns as
+    corners.
+    """
+    stars = _stars(planes, planes.on_surface)
+    lonely = np.setdiff1d(np.arange(len(planes.neighbours)), stars)
+    if len(lonely):
+        at_hand = np.zeros_like(planes.near)
+        at_hand[lonely] = planes.near[lonely]
+        stars = np.concatenate([stars, _stars(planes, at_hand)])
+    triangles, weights = _shared_by_duplicates(stars, _weights(stars, len(planes.neighbours)), distinct)
+    isolated = np.setdiff1d(np.arange(len(distinct.place)), triangles)
+    if len(isolated):
+        _log.warning("%d of %d points touch no triangle (first: %d).", len(isolated), len(distinct.place), isolated[0])
+    edges = arc_edges(points, normals, triangles)
+    areas = np.linalg.norm(np.cross(edges[:, 0], edges[:, 1]), axis=1) / 2
+    return Fans(*map(read_only, (triangles, weights, edges, areas, isolated)))
+
+
+def _stars(planes: TangentPlanes, usable: BoolArray) -> IntArray:
+    """(t, 3): centre and two neighbours, as numbers of distinct points."""
+    n, k = planes.neighbours.shape
+    if k < 2:
+        return np.empty((0, 3), dtype=np.int64)
+    # Points of a grid lie on common circles. A tiny fixed weight per point decides which diagonal all fans around
+    # take.
+    spacing = float(np.median(planes.distances[:, :1]))
+    weight = np.random.default_rng(0).uniform(0.0, _TIE * spacing**2, size=n)
+    stars = delaunay_stars(planes.plane, usable, weight[planes.neighbours] - weight[:, None])
+    centre = stars[:, 0]
+    return np.stack([centre, planes.neighbours[centre, stars[:, 1]], planes.neighbours[centre, stars[:, 2]]], axis=1)
+
+
+def _weights(stars: IntArray, count: int) -> FloatArray:
+    """(t,): one over how many fans cover the same side of an edge of the triangle, the most crowded of its three
+    edges.
+
+    1/3 where the fans agree, 1/4 where four points on a circle all choose the diagonals to themselves, 1/2 where
+    none does. What a single fan claims counts a third.
+    """
+    sides = stars[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 3, 2)
+    _, edge, fans = np.unique(sides[:, :, 0] * count + sides[:, :, 1], return_inverse=True, return_counts=True)
+    cover = fans[edge.reshape(-1, 3)].max(axis=1)
+    return np.asarray(1.0 / np.where(cover == 1, 3, cover))
+
+
+def _shared_by_duplicates(
+    stars: IntArray, weights: FloatArray, distinct: DistinctPoints
+) -> tuple[IntArray, FloatArray]:
+    """Triangles over all points: as many copies of each as the most crowded of its corners has points, sharing its
+    weight."""
+    by_place = np.argsort(distinct.place, kind="stable")
+    crowd = np.bincount(distinct.place, minlength=len(distinct.first))
+    begin = np.cumsum(crowd) - crowd
+    copies = crowd[stars].max(axis=1)
+    row = np.repeat(np.arange(len(stars)), copies)
+    turn = np.arange(len(row)) - np.repeat(np.cumsum(copies) - copies, copies)
+    corner = stars[row]
+    triangles = by_place[begin[corner] + turn[:, None] % crowd[corner]]
+    return triangles, (weights / copies)[row]
