@@ -1,0 +1,33 @@
+"""Learned descriptors: the networks of the paper, their training, and trained models. Needs torch."""
+
+from .architectures import Architecture, Network, build_network
+from .inputs import InputRecipe
+from .layers import ASF, FC, SC, ReLU, Softmax
+from .losses import multinomial_loss, siamese_loss, soft_nearest_loss
+from .model import Model, load_model, shipped_models
+from .runs import LearningTask, train
+from .training import TrainingSettings
+from .training_set import TrainingShape, places_of
+
+__all__ = [
+    "ASF",
+    "FC",
+    "SC",
+    "Architecture",
+    "InputRecipe",
+    "LearningTask",
+    "Model",
+    "Network",
+    "ReLU",
+    "Softmax",
+    "TrainingSettings",
+    "TrainingShape",
+    "build_network",
+    "load_model",
+    "multinomial_loss",
+    "places_of",
+    "shipped_models",
+    "siamese_loss",
+    "soft_nearest_loss",
+    "train",
+]

@@ -1,0 +1,143 @@
+"""Trained networks: from a shape to its descriptors, in files that run no code."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass, field
+from pathlib import Path
+from typing import Any, Literal
+
+import numpy as np
+import torch
+from safetensors import SafetensorError, safe_open
+from safetensors.torch import save_file
+
+from .._assets import asset
+from .._check import FloatArray, one_of
+from ..errors import AddError, ParameterError, ShapeFileError
+from ..geometry import PointCloud, TriangleMesh
+from .architectures import Architecture, Network, build
+from .inputs import InputRecipe, Inputs, Moments, Progress
+
+FORMAT = "add_core model 1"
+POINTS_AT_ONCE = 2048
+"""Points that go through the network together: some 100 MB of intermediate numbers."""
+
+Standardisation = Literal["shape", "set"]
+
+
+@dataclass(frozen=True, eq=False)
+class Model:
+    """A network with all that it needs to be used on a shape.
+
+    recipe : how inputs come from a shape. standardisation : "shape" brings every shape's inputs to mean 0 and
+        deviation 1 by themselves, "set" by the moments of the training set. card : facts about the training, for
+        people to read.
+    """
+
+    network: Network
+    recipe: InputRecipe
+    moments: Moments
+    standardisation: Standardisation = "shape"
+    card: Mapping[str, Any] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        one_of("standardisation", self.standardisation, ("shape", "set"))
+        wanted, given = self.network.architecture, self.recipe
+        if (wanted.channels, wanted.splines) != (given.channels, given.splines):
+            raise ParameterError(
+                f"the network takes {wanted.channels} channels × {wanted.splines} splines, "
+                f"but the recipe makes {given.channels} × {given.splines}."
+            )
+
+    def describe(
+        self,
+        shape: TriangleMesh | PointCloud,
+        *,
+        progress: Progress | None = None,
+        workers: int | None = None,
+        cache: bool = True,
+    ) -> FloatArray:
+        """Descriptors of every vertex, shape (n, Q), without unit; probabilities if the network ends in Softmax.
+
+        The shape is brought to unit geodesic diameter first, so its unit of length does not matter. progress, workers,
+        cache : as for `compute_spectra`, which takes nearly all of the time.
+        """
+        family = self.recipe.spectra(shape, progress=progress, workers=workers, cache=cache)
+        return self.describe_inputs(self.recipe.inputs(family), family.mass)
+
+    def describe_inputs(self, values: Inputs, mass: FloatArray) -> FloatArray:
+        """Descriptors, shape (n, Q), from unstandardised inputs (n, C, M) of points of area `mass` (n,)."""
+        moments = Moments.of(values, mass) if self.standardisation == "shape" else self.moments
+        self.network.eval()
+        with torch.inference_mode():
+            parts = [
+                self.network(torch.from_numpy(moments.standardise(values[low : low + POINTS_AT_ONCE])))
+                for low in range(0, len(values), POINTS_AT_ONCE)
+            ]
+        return np.asarray(torch.cat(parts).numpy(), dtype=np.float64)
+
+    def save(self, path: str | Path) -> None:
+        """Write the model as safetensors, replacing what is there only once everything is written."""
+        about = {
+            "architecture": asdict(self.network.architecture),
+            "recipe": asdict(self.recipe),
+            "standardisation": self.standardisation,
+            "card": dict(self.card),
+        }
+        tensors = {f"network.{name}": value.contiguous() for name, value in self.network.state_dict().items()}
+        tensors["input.mean"] = torch.from_numpy(np.array(self.moments.mean))
+        tensors["input.deviation"] = torch.from_numpy(np.array(self.moments.deviation))
+        target = Path(path)
+        target.parent.mkdir(parents=True, exist_ok=True)
+        unfinished = target.with_name(f".{target.name}.part")
+        save_file(tensors, str(unfinished), metadata={"format": FORMAT, "about": json.dumps(about)})
+        unfinished.replace(target)
+
+
+def load_model(model: str | Path) -> Model:
+    """The model in a file, or one that ships with the project, by its name: "humans-madd3".
+
+    Raises ParameterError for a name that is neither, ShapeFileError for a file that holds no model.
+    """
+    path = Path(model)
+    if not path.is_file():
+        path = _shipped(str(model))
+    try:
+        with safe_open(str(path), framework="pt") as file:
+            facts = file.metadata() or {}
+            if facts.get("format") != FORMAT:
+                raise ShapeFileError(f"{path}: holds no model of this program's format ({FORMAT}).")
+            tensors = {name: file.get_tensor(name) for name in file.keys()}
+        return _assembled(json.loads(facts["about"]), tensors)
+    except (SafetensorError, OSError, KeyError, TypeError, ValueError, RuntimeError) as error:
+        if isinstance(error, AddError):
+            raise
+        raise ShapeFileError(f"{path}: is damaged, or holds no model: {error}.") from None
+
+
+def shipped_models() -> tuple[str, ...]:
+    """Names that `load_model` knows."""
+    try:
+        folder = asset("models", "README.md").parent
+    except ShapeFileError:
+        return ()
+    return tuple(sorted(path.stem for path in folder.glob("*.safetensors")))
+
+
+def _shipped(name: str) -> Path:
+    if name not in shipped_models():
+        known = ", ".join(shipped_models()) or "none"
+        raise ParameterError(f"model must be a file or a shipped model ({known}), but it is {name!r}.")
+    return asset("models", f"{name}.safetensors")
+
+
+def _assembled(about: dict[str, Any], tensors: dict[str, torch.Tensor]) -> Model:
+    recipe = dict(about["recipe"], alphas=tuple(about["recipe"]["alphas"]))
+    network = build(Architecture(**about["architecture"]))
+    network.load_state_dict(
+        {name.removeprefix("network."): value for name, value in tensors.items() if name.startswith("network.")}
+    )
+    moments = Moments(tensors["input.mean"].numpy(), tensors["input.deviation"].numpy())
+    return Model(network, InputRecipe(**recipe), moments, about["standardisation"], about["card"])
