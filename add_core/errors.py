@@ -19,3 +19,7 @@ class ShapeFileError(AddError, ValueError):
 
 class ConvergenceError(AddError, ArithmeticError):
     """A numerical method did not reach the accuracy that it promises."""
+
+
+class Cancelled(AddError):
+    """A caller's `progress` function asked to stop."""

@@ -1,0 +1,204 @@
+"""Block Lanczos on (A − σI)⁻¹: the eigenpairs of a symmetric matrix on both sides of a shift inside its spectrum.
+
+Basis vectors are kept as contiguous rows, so that every product streams memory. Each new block is made orthogonal to
+the two before it; only two blocks of every three are made orthogonal to all others as well, which keeps the basis
+semi-orthogonal (Simon 1984; Grimes, Lewis and Simon 1994). A guard watches what the next full pass finds and falls
+back to passing every time.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from .._check import FloatArray
+from ..errors import ConvergenceError
+
+LOOSE = 1e-9
+"""A full pass that finds overlaps larger than this with earlier vectors came too late: from then on every block gets
+one.
+"""
+
+
+@dataclass(frozen=True, eq=False)
+class RitzPairs:
+    """Approximate eigenpairs of A, ascending, as combinations of basis vectors.
+
+    values : (p,), at least as many as were asked for; those beyond have not been checked for convergence.
+    vectors : (n, k), orthonormal to about the basis's own orthogonality, k as asked for.
+    estimate : the largest residual of the k pairs relative to its value, as Lanczos predicts it.
+    steps : rows of the basis.
+    """
+
+    values: FloatArray
+    vectors: FloatArray
+    estimate: float
+    steps: int
+
+
+def shift_invert_lanczos(
+    solve: Callable[[FloatArray], FloatArray],
+    kernel: FloatArray,
+    count: int,
+    *,
+    shift: float,
+    block: int = 12,
+    first_check: int,
+    most: int,
+    tolerance: float,
+    floor: float,
+    always: bool = False,
+    seed: int = 0,
+) -> RitzPairs:
+    """The `count` smallest eigenpairs of a positive semi-definite A beside its known kernel.
+
+    solve : (n, p) → (n, p), applies (A − shift I)⁻¹.
+    kernel : (c, n), orthonormal rows with A kernelᵀ = 0; they lead the basis and are not returned.
+    block : vectors per step; eigenvalues of higher multiplicity may be found incompletely.
+    first_check, most : rows of the basis at the first test of convergence, and at which to give up.
+    tolerance : of residuals relative to max(value, floor).
+    always : orthogonalise every block against all others from the start.
+    Raises ConvergenceError if `most` rows do not suffice.
+    """
+    basis = _Basis(kernel, shift, most, block, seed=seed, always=always)
+    check = first_check
+    previous: tuple[int, float] | None = None
+    while True:
+        basis.extend(solve)
+        last = basis.size + block > most
+        if basis.size < check and not last:
+            continue
+        pairs = basis.ritz(count, floor=floor)
+        if pairs is not None and pairs.estimate <= tolerance:
+            return pairs.with_vectors(basis)
+        if last:
+            reached = "nothing" if pairs is None else f"{pairs.estimate:.1e}"
+            raise ConvergenceError(
+                f"{basis.size} Lanczos vectors reached {reached} where {tolerance:.1e} was asked for."
+            )
+        check = basis.size + _steps_to_go(pairs, previous, basis.size, tolerance, block)
+        previous = None if pairs is None else (basis.size, pairs.estimate)
+
+
+def _steps_to_go(
+    pairs: _Convergence | None, previous: tuple[int, float] | None, size: int, tolerance: float, block: int
+) -> int:
+    """How many more rows convergence will take: residuals fall geometrically, by what was seen or by a factor of 2.8
+    a step.
+    """
+    if pairs is None or pairs.estimate > 1e-2:
+        return 3 * block
+    rate = 0.45 * np.log(10.0) / block
+    if previous is not None and pairs.estimate < 0.7 * previous[1]:
+        rate = np.log(previous[1] / pairs.estimate) / (size - previous[0])
+    blocks = np.ceil(np.log(2.0 * pairs.estimate / tolerance) / rate / block)
+    return int(np.clip(blocks, 1, 8)) * block
+
+
+@dataclass(frozen=True, eq=False)
+class _Convergence:
+    """Where the projected problem stands."""
+
+    values: FloatArray
+    estimate: float
+    mixing: FloatArray  # (rows of the basis with the last block, count)
+
+    def with_vectors(self, basis: _Basis) -> RitzPairs:
+        return RitzPairs(self.values, basis.rows.T @ self.mixing, self.estimate, basis.size)
+
+
+class _Basis:
+    """A growing orthonormal basis Q (rows) and T = Q (A − σI)⁻¹ Qᵀ, with one block more of Q than of T."""
+
+    def __init__(self, kernel: FloatArray, shift: float, most: int, block: int, *, seed: int, always: bool) -> None:
+        c, n = kernel.shape
+        self._q = np.empty((most + block, n))
+        self._t = np.zeros((most + block, most + block))
+        self._q[:c] = kernel
+        self._t[np.arange(c), np.arange(c)] = -1.0 / shift  # (A − σI)⁻¹ k = −k/σ
+        self._shift, self._block, self._always = shift, block, always
+        self._step = 0
+        self._kernel_rows = self.size = c
+        start = np.random.default_rng(seed).standard_normal((block, n))
+        start -= (start @ kernel.T) @ kernel
+        self._append(start)
+
+    @property
+    def rows(self) -> FloatArray:
+        """(size + block, n)."""
+        return self._q[: self.size + self._block]
+
+    def extend(self, solve: Callable[[FloatArray], FloatArray]) -> None:
+        """Apply the operator to the newest block, orthogonalise, and let the result be the next."""
+        j, b, q = self.size, self._block, self.rows
+        new = np.ascontiguousarray(solve(np.ascontiguousarray(q[j:].T)).T)
+        low = max(0, j - b)
+        overlaps = np.zeros((b, j + b))
+        overlaps[:, low:] = new @ q[low:].T
+        new -= overlaps[:, low:] @ q[low:]
+        scale = np.linalg.norm(new)
+        if self._always or self._step % 3 < 2:
+            found = new @ q.T
+            new -= found @ q
+            overlaps += found
+            self._always |= bool(np.abs(found[:, :low]).max(initial=0.0) > LOOSE * scale)
+        else:
+            found = new @ q[low:].T
+            new -= found @ q[low:]
+            overlaps[:, low:] += found
+        self._t[j : j + b, : j + b] = overlaps
+        self._t[: j + b, j : j + b] = overlaps.T
+        self.size += b
+        self._step += 1
+        self._append(new)
+
+    def _append(self, new: FloatArray) -> None:
+        """Let an orthonormal basis of the rows `new` follow; new = Rᵀ basis, R kept for residuals."""
+        j, b = self.size, self._block
+        try:
+            self._q[j : j + b], self._r = _orthonormal(new)
+        except np.linalg.LinAlgError:
+            self._q[j : j + b], self._r = _refilled(new, self._q[:j], seed=j)
+
+    def ritz(self, count: int, *, floor: float) -> _Convergence | None:
+        """Eigenpairs of T, purified by one more step of the recurrence; None while fewer than `count` make sense."""
+        j, b, c = self.size, self._block, self._kernel_rows
+        inverse, mixing = np.linalg.eigh(0.5 * (self._t[c:j, c:j] + self._t[c:j, c:j].T))
+        inverse = np.where(inverse == 0.0, np.finfo(float).tiny, inverse)
+        values = self._shift + 1.0 / inverse
+        sensible = np.flatnonzero(values > -1e-6 * self._shift)
+        sensible = sensible[np.argsort(values[sensible], kind="stable")]
+        if len(sensible) < count:
+            return None
+        chosen = sensible[:count]
+        tail = (self._r @ mixing[-b:, chosen]) / inverse[chosen]
+        residuals = np.linalg.norm(tail, axis=0) / np.abs(inverse[chosen])
+        estimate = float((residuals / np.maximum(values[chosen], floor)).max())
+        full = np.zeros((j + b, count))
+        full[c:j], full[j:] = mixing[:, chosen], tail
+        return _Convergence(values[sensible], estimate, full)
+
+
+def _orthonormal(new: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Orthonormal rows v and R with new = Rᵀ v, by Cholesky twice. Raises LinAlgError if rows depend on each other."""
+    first = np.linalg.cholesky(new @ new.T)
+    rows = np.linalg.inv(first) @ new
+    second = np.linalg.cholesky(rows @ rows.T)
+    return np.linalg.inv(second) @ rows, second.T @ first.T
+
+
+def _refilled(new: FloatArray, basis: FloatArray, *, seed: int) -> tuple[FloatArray, FloatArray]:
+    """As `_orthonormal`, where directions that vanished (an exhausted Krylov space) are replaced by fresh ones with R
+    = 0.
+    """
+    left, lengths, right = np.linalg.svd(new, full_matrices=False)
+    alive = lengths > 1e-12 * max(lengths[0], np.finfo(float).tiny)
+    fresh = np.random.default_rng(seed).standard_normal(new.shape)
+    rows = np.where(alive[:, None], right, fresh)
+    for _ in range(3):
+        rows[~alive] -= (rows[~alive] @ basis.T) @ basis
+        rows[~alive] -= (rows[~alive] @ rows[alive].T) @ rows[alive]
+        rows[~alive] = np.linalg.qr(rows[~alive].T)[0].T
+    return rows, np.where(alive, lengths, 0.0)[:, None] * left.T

@@ -1,0 +1,77 @@
+"""A process that solves operators of a job folder: numbers of operators come in on stdin, results go out on stdout.
+
+Started as a program of its own, not by forking or by `multiprocessing`: it never imports the caller's script, so a
+script needs no `if __name__ == "__main__"`, and no lock or thread of a window or of OpenBLAS is copied half-way. It
+ends when stdin closes, so nothing stays behind when the caller is killed.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import queue
+import signal
+import sys
+import threading
+import time
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ..errors import AddError
+from .job import SpectralJob
+from .ordering import Dissection
+from .solver import PencilSolver
+
+
+def main() -> None:
+    """Serve until stdin closes. The first line is the job folder, each further line the number of an operator."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C reaches the whole group; the caller decides what ends
+    answers = os.fdopen(os.dup(1), "w", encoding="utf-8")
+    os.dup2(2, 1)  # whatever a library prints must not mix with the answers
+    requests: queue.Queue[str] = queue.Queue()
+    threading.Thread(target=_read, args=(requests,), daemon=True).start()
+    folder = Path(json.loads(requests.get()))
+    job = SpectralJob.load(folder / "inputs")
+    solver = PencilSolver(job.indptr, job.indices, job.mass, Dissection.load(folder / "inputs"))
+    while True:
+        channel = int(requests.get())
+        answers.write(json.dumps(_answer(job, solver, folder, channel)) + "\n")
+        answers.flush()
+
+
+def _read(requests: queue.Queue[str]) -> None:
+    for line in sys.stdin:
+        requests.put(line)
+    os._exit(0)  # the caller is gone, perhaps in the middle of an operator
+
+
+def _answer(job: SpectralJob, solver: PencilSolver, folder: Path, channel: int) -> dict[str, Any]:
+    began = time.process_time()
+    try:
+        pairs = solver.eigenpairs(np.array(job.values[channel]), count=int(job.count), scale=float(job.scales[channel]))
+        job.write_output(folder, channel, pairs.functions)
+    except (AddError, OSError, MemoryError) as error:
+        return {"channel": channel, "error": f"{type(error).__name__}: {error}", "code": getattr(error, "errno", None)}
+    return {
+        "channel": channel,
+        "values": pairs.values.tolist(),
+        "fallback": pairs.fallback,
+        "seconds": time.process_time() - began,
+        "megabytes": _peak_megabytes(),
+    }
+
+
+def _peak_megabytes() -> float:
+    """Largest resident memory of this process so far; 0 where the system does not say."""
+    try:
+        import resource
+    except ImportError:  # Windows
+        return 0.0
+    peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    return peak / (2**20 if sys.platform == "darwin" else 2**10)
+
+
+if __name__ == "__main__":
+    main()
