@@ -1,0 +1,280 @@
+"""Training: pairs that are what they claim, runs that survive being killed, and complaints that help."""
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import torch
+from numpy.testing import assert_allclose, assert_array_equal
+
+from add_core.errors import Cancelled, ConvergenceError, ParameterError, ShapeFileError
+from add_core.geometry import TriangleMesh
+from add_core.geometry.shapes import ellipsoid
+from add_core.learning import InputRecipe, LearningTask, TrainingSettings, TrainingShape, load_model, train
+from add_core.learning.architectures import Architecture
+from add_core.learning.inputs import Moments
+from add_core.learning.pairs import PairSampler
+from add_core.learning.training import CHECKPOINT, MODEL, fit, learning_rate, negative_pairs
+from add_core.learning.training_set import PreparedShape, prepare
+
+RECIPE = InputRecipe(alphas=(0.0, 30.0), angles=2, eigenpairs=30, splines=12)
+SMALL = Architecture("small", "ASF16 ReLU SC FC32 ReLU FC8", channels=3, splines=12)
+QUICK = TrainingSettings(steps=24, pairs=16, validate_every=8, checkpoint_every=4, learning_rate=1e-2)
+
+
+@pytest.fixture(autouse=True)
+def _one_thread():
+    torch.set_num_threads(1)
+
+
+def body(seed, *, subdivisions=2, places=None):
+    """A lumpy ellipsoid: the same lumps for every seed, in slightly different sizes."""
+    mesh = ellipsoid(1.0, 0.7, 0.5, subdivisions=subdivisions)
+    x, y, z = mesh.vertices.T
+    size = 1 + 0.03 * np.random.default_rng(seed).normal(size=3)
+    lumps = (
+        1 + 0.2 * size[0] * np.sin(2 * x + 1) + 0.15 * size[1] * np.cos(5 * y + x) + 0.1 * size[2] * np.sin(4 * z - y)
+    )
+    shape = TriangleMesh(mesh.vertices * lumps[:, None], mesh.faces, name=f"body {seed}")
+    return TrainingShape(shape, np.arange(mesh.vertex_count) if places is None else places)
+
+
+@pytest.fixture(scope="module")
+def shapes(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("inputs")
+    return prepare([body(seed) for seed in range(4)], RECIPE, folder, workers=1)
+
+
+def made_up(values, places=None, name="made up"):
+    values = np.asarray(values, dtype=np.float32)
+    count = len(values)
+    moments = Moments(np.zeros(values.shape[1:], np.float32), np.ones(values.shape[1:], np.float32))
+    positions = np.arange(3 * count, dtype=np.float32).reshape(count, 3)
+    numbers = np.arange(count) if places is None else np.asarray(places)
+    return PreparedShape(values, numbers, np.ones(count), positions, moments, name)
+
+
+def numbered(places):
+    """A shape whose inputs are the places themselves."""
+    return made_up(np.asarray(places, dtype=float)[:, None, None], places)
+
+
+def test_pairs_are_the_same_place_on_both_shapes_whatever_its_number():
+    one, two = numbered(np.random.default_rng(0).permutation(40)), numbered(np.arange(5, 45))
+    batch = PairSampler([one, two], pairs=32, seed=1).batch(7)
+    assert_array_equal(batch.one, batch.two)
+    assert_array_equal(batch.one[:, 0, 0], batch.places)
+    assert batch.places.min() >= 5
+    assert batch.places.max() < 40
+
+
+def test_mirror_images_are_drawn_and_named():
+    symmetry = np.arange(40) ^ 1
+    sampler = PairSampler([numbered(np.arange(40)), numbered(np.arange(40))], pairs=32, seed=0, symmetry=symmetry)
+    batch = sampler.batch(0)
+    known = batch.mirror >= 0
+    assert known[:16].all()
+    assert_array_equal(batch.places[batch.mirror[known]], symmetry[batch.places[known]])
+
+
+def test_vertices_without_a_counterpart_are_never_drawn():
+    places = np.where(np.arange(30) % 3, -1, np.arange(30))
+    batch = PairSampler([numbered(places), numbered(np.arange(30))], pairs=64, seed=0).batch(0)
+    assert (batch.places % 3 == 0).all()
+
+
+def test_a_step_is_the_same_batch_whatever_came_before():
+    shapes = [numbered(np.arange(30))] * 3
+    first, second = (PairSampler(shapes, pairs=16, seed=5) for _ in range(2))
+    for step in range(4):
+        first.batch(step)
+    assert_array_equal(first.batch(9).places, second.batch(9).places)
+    assert not np.array_equal(first.batch(9).places, first.batch(10).places)
+
+
+def test_negatives_are_mirrored_random_and_the_hardest_and_never_the_place_itself():
+    symmetry = np.arange(40) ^ 1
+    batch = PairSampler([numbered(np.arange(40))] * 2, pairs=16, seed=0, symmetry=symmetry).batch(0)
+    distances = torch.rand(16, 16, generator=torch.Generator().manual_seed(0))
+    row, column = (index.numpy() for index in negative_pairs(batch, distances, hard=True))
+    assert (batch.places[row] != batch.places[column]).all()
+    assert {(r, batch.mirror[r]) for r in range(8)} <= set(zip(row.tolist(), column.tolist(), strict=True))
+    hardest = distances.masked_fill(torch.from_numpy(batch.places[:, None] == batch.places), 9).argmin(1).numpy()
+    assert_array_equal(column[-16:], hardest)
+
+
+def test_the_inputs_of_a_shape_are_computed_once(tmp_path):
+    started, shape = [], body(0)
+    for _ in range(2):
+        prepare([shape], RECIPE, tmp_path, workers=1, report=lambda *event: started.append(time.time_ns()))
+        written = {path: path.stat().st_mtime_ns for path in tmp_path.iterdir()}
+    assert max(written.values()) < started[-2]
+    assert sorted(path.suffix for path in written) == [".npy", ".npz"]
+
+
+def test_a_network_learns_two_shapes_by_heart(shapes, tmp_path):
+    settings = TrainingSettings(steps=200, pairs=64, noise=0.0, learning_rate=5e-3, checkpoint_every=1000)
+    losses = []
+    fit(SMALL, RECIPE, shapes[:2], tmp_path, settings=settings, report=lambda e: losses.append(e.get("loss")))
+    assert losses[0] > 0.5
+    assert np.mean(losses[-12:-2]) < 0.02
+
+
+@pytest.mark.parametrize("optimizer", ["adam", "adadelta"])
+def test_the_siamese_loss_falls(shapes, tmp_path, optimizer):
+    settings = TrainingSettings(loss="siamese", optimizer=optimizer, steps=80, pairs=32)
+    losses = []
+    fit(SMALL, RECIPE, shapes[:2], tmp_path, settings=settings, report=lambda e: losses.append(e.get("loss")))
+    assert np.mean(losses[60:80]) < 0.6 * losses[0]
+
+
+def test_a_classifier_learns_the_reference_shape(shapes, tmp_path):
+    classifier = Architecture("small", "SC FC32 ReLU FCreference Softmax", 3, 12, reference_size=162)
+    settings = TrainingSettings(loss="multinomial", steps=150, pairs=64, noise=0.0, learning_rate=1e-2)
+    model = fit(classifier, RECIPE, shapes[:2], tmp_path, settings=settings)
+    probabilities = model.describe_inputs(np.asarray(shapes[0].values, np.float32), shapes[0].mass)
+    assert_allclose(probabilities.sum(axis=1), 1, rtol=1e-5)
+    assert (probabilities.argmax(axis=1) == np.arange(162)).mean() > 0.8
+
+
+def run(folder, shapes, settings=QUICK, **options):
+    return fit(SMALL, RECIPE, shapes[:3], folder, settings=settings, validation=shapes[2:], **options)
+
+
+def weights(model):
+    return {name: value.numpy() for name, value in model.network.state_dict().items()}
+
+
+def test_stopping_and_going_on_changes_no_bit(shapes, tmp_path):
+    whole, stops = weights(run(tmp_path / "whole", shapes)), iter([3, 9, 10, 17])
+    stop = next(stops)
+    while stop is not None:
+        with pytest.raises(Cancelled, match="the same command goes on"):
+            run(tmp_path / "parts", shapes, report=lambda e, at=stop: e.get("step") != at)
+        stop = next(stops, None)
+    for name, value in weights(run(tmp_path / "parts", shapes)).items():
+        assert_array_equal(value, whole[name])
+
+
+KILLED = """
+import sys, torch
+sys.path[:0] = [sys.argv[1], sys.argv[2]]
+torch.set_num_threads(1)
+from pathlib import Path
+from test_learning_training import RECIPE, body, prepare, run
+def report(event):
+    print(event["event"], event.get("step"), flush=True)
+run(Path(sys.argv[4]), prepare([body(s) for s in range(4)], RECIPE, Path(sys.argv[3]), workers=1), report=report)
+"""
+
+
+def test_a_killed_run_ends_with_the_same_weights(shapes, tmp_path):
+    whole = weights(run(tmp_path / "whole", shapes))
+    here = os.path.dirname(__file__)
+    command = [sys.executable, "-c", KILLED, os.path.dirname(os.path.dirname(here)), here, str(tmp_path / "inputs")]
+    with subprocess.Popen([*command, str(tmp_path / "killed")], stdout=subprocess.PIPE, text=True) as process:
+        for line in process.stdout:
+            if line.split() == ["step", "11"]:
+                os.kill(process.pid, signal.SIGKILL if hasattr(signal, "SIGKILL") else signal.SIGTERM)
+                break
+    assert (tmp_path / "killed" / CHECKPOINT).exists()
+    assert not (tmp_path / "killed" / MODEL).exists()
+    for name, value in weights(run(tmp_path / "killed", shapes)).items():
+        assert_array_equal(value, whole[name])
+
+
+def test_the_best_validation_is_what_is_kept(shapes, tmp_path):
+    model = run(tmp_path, shapes, replace(QUICK, learning_rate=1.0, steps=32))
+    curve = [entry["cmc1"] for entry in model.card["history"]]
+    again = run(tmp_path, shapes, replace(QUICK, learning_rate=1.0, steps=32))
+    assert [entry["step"] for entry in model.card["history"]] == [8, 16, 24, 32]
+    assert weights(again).keys() == weights(model).keys()
+    assert max(curve) >= curve[-1]
+
+
+def test_training_stops_early_when_nothing_gets_better(shapes, tmp_path):
+    settings = replace(QUICK, steps=4000, validate_every=4, patience=3, learning_rate=1e-9)
+    model = run(tmp_path, shapes, settings)
+    assert model.card["steps"] < 4000
+
+
+def test_a_folder_of_another_training_is_not_overwritten(shapes, tmp_path):
+    run(tmp_path, shapes)
+    with pytest.raises(ParameterError, match="other shapes or settings"):
+        run(tmp_path, shapes, replace(QUICK, pairs=20))
+    with pytest.raises(ParameterError, match="other shapes or settings"):
+        fit(SMALL, RECIPE, shapes[1:], tmp_path, settings=QUICK, validation=shapes[2:])
+
+
+def test_a_damaged_checkpoint_is_named(shapes, tmp_path):
+    (tmp_path / CHECKPOINT).write_bytes(b"nothing of the kind")
+    with pytest.raises(ShapeFileError, match="Remove it to start anew"):
+        run(tmp_path, shapes)
+
+
+def test_a_loss_that_is_no_number_stops_the_training(tmp_path):
+    bad = [made_up(np.full((20, 3, 12), np.nan), name=f"{i}") for i in range(2)]
+    with pytest.raises(ConvergenceError, match="at step 0"):
+        fit(SMALL, RECIPE, bad, tmp_path, settings=QUICK)
+
+
+@pytest.mark.parametrize(
+    ("shapes", "complaint"),
+    [
+        ([numbered(np.arange(20))], "at least two shapes"),
+        ([numbered(np.arange(20)), numbered(np.arange(30, 50))], "no two of them do"),
+    ],
+)
+def test_sets_that_cannot_be_compared_are_explained(shapes, complaint):
+    with pytest.raises(ParameterError, match=complaint):
+        PairSampler(shapes, pairs=8, seed=0)
+
+
+def test_losses_that_do_not_fit_the_network_are_explained(shapes, tmp_path):
+    with pytest.raises(ParameterError, match="'multinomial' does not fit small"):
+        fit(SMALL, RECIPE, shapes, tmp_path, settings=TrainingSettings(loss="multinomial"))
+    classifier = Architecture("mine", "SC FCreference Softmax", 3, 12, reference_size=10)
+    with pytest.raises(ParameterError, match="reference_size must be above 161"):
+        fit(classifier, RECIPE, shapes, tmp_path, settings=TrainingSettings(loss="multinomial"))
+
+
+@pytest.mark.parametrize("setting", [{"steps": 0}, {"noise": -1.0}, {"loss": "hinge"}, {"learning_rate": 0.0}])
+def test_settings_out_of_range_are_named(setting):
+    with pytest.raises(ParameterError, match=next(iter(setting))):
+        TrainingSettings(**setting)
+
+
+def test_the_learning_rate_falls_like_a_cosine():
+    settings = TrainingSettings(steps=100, learning_rate=2.0)
+    assert_allclose([learning_rate(settings, step) for step in (0, 50, 100)], [2.0, 1.0, 0.0], atol=1e-12)
+    assert learning_rate(TrainingSettings(optimizer="adadelta"), 77) == 1.0
+
+
+def test_training_in_one_call_makes_a_model_that_describes_shapes(tmp_path):
+    task = LearningTask([body(seed) for seed in range(3)], [body(3), body(4)])
+    events = []
+    settings = replace(QUICK, steps=4)
+    model = train(
+        task, tmp_path, architecture="mADD2", recipe=RECIPE, settings=settings, report=events.append, workers=1
+    )
+    loaded = load_model(tmp_path / MODEL)
+    shape = body(9).shape
+    described = loaded.describe(shape, workers=1, cache=False)
+    assert described.shape == (shape.vertex_count, 16)
+    assert_array_equal(described, model.describe(shape, workers=1, cache=False))
+    kinds = ["prepare"] * 6 + ["step"] * 3 + ["validation", "step", "done"]
+    assert [event["event"] for event in events] == kinds
+
+
+def test_nothing_to_learn_from_is_explained(tmp_path):
+    with pytest.raises(ParameterError, match="at least one shape"):
+        train([], tmp_path, recipe=RECIPE)
+    with pytest.raises(ParameterError, match="architecture must be one of"):
+        train([body(0)], tmp_path, architecture="ADD7")
+    with pytest.raises(ParameterError, match="all are -1"):
+        TrainingShape(body(0).shape, np.full(162, -1))
