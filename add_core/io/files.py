@@ -59,7 +59,7 @@ def save_shape(shape: Shape, path: StrPath, fields: Mapping[str, ArrayLike] | No
     """Write a shape, and quantities at its vertices, in the format that the extension of `path` names.
 
     fields : name → (n,) or (n, k). PLY, VTP, VTK and NPZ hold them, in double precision. MeshLab colours a PLY file by
-        the field named "quality"; ParaView shows the fields of VTP and VTK files.
+        the field named "quality", or the first one; ParaView shows the fields of VTP and VTK files.
     The file appears whole or not at all: it is written beside its place and then moved there.
 
     Raises ShapeFileError if the format cannot hold the shape or fields, or the file cannot be written; ParameterError

@@ -1,6 +1,7 @@
 """PLY, ascii or binary of either byte order: vertices, faces, normals, and any other number at the vertices as a field.
 
 A field of k > 1 components is stored as properties name_0 to name_{k-1}; on reading, such properties are joined again.
+MeshLab knows one field, by the name "quality", so the first field of one component is written under that name, too.
 """
 
 from __future__ import annotations
@@ -18,6 +19,7 @@ from .ply_rows import BinaryRows, Column, TextRows
 _POSITION = ("x", "y", "z")
 _NORMAL = ("nx", "ny", "nz")
 _CORNERS = ("vertex_indices", "vertex_index")
+_REPEATED = b"comment quality repeats"
 
 
 def read(data: bytes) -> FileContents:
@@ -31,7 +33,9 @@ def read(data: bytes) -> FileContents:
             break  # what follows may be in any state
     if "tristrips" in tables:
         raise ShapeFileError("holds triangle strips. Export it with a list of faces.")
-    vertices = tables.get("vertex", {})
+    vertices = dict(tables.get("vertex", {}))
+    if _REPEATED in data[: header.size]:
+        vertices.pop("quality", None)
     if not set(_POSITION) <= vertices.keys():
         raise ShapeFileError("has no vertices with x, y and z.")
     return FileContents(
@@ -47,6 +51,9 @@ def write(shape: Shape, fields: Fields) -> bytes:
     columns: dict[str, np.ndarray] = dict(zip(_POSITION, shape.vertices.T, strict=True))
     if isinstance(shape, PointCloud) and shape.normals is not None:
         columns |= zip(_NORMAL, shape.normals.T, strict=True)
+    shown = None if "quality" in fields else next((name for name, field in fields.items() if field.ndim == 1), None)
+    if shown is not None:
+        columns["quality"] = fields[shown]
     for name, field in fields.items():
         word = _property_name(name)
         new = {word: field} if field.ndim == 1 else {f"{word}_{k}": part for k, part in enumerate(field.T)}
@@ -58,7 +65,9 @@ def write(shape: Shape, fields: Fields) -> bytes:
     table = np.empty(shape.vertex_count, dtype=[(name, "<f8") for name in columns])
     for name, column in columns.items():
         table[name] = column
-    header = ["ply", "format binary_little_endian 1.0", f"element vertex {shape.vertex_count}"]
+    header = ["ply", "format binary_little_endian 1.0"]
+    header += [] if shown is None else [f"{_REPEATED.decode()} {_property_name(shown)}"]
+    header += [f"element vertex {shape.vertex_count}"]
     header += [f"property double {name}" for name in columns]
     faces = b""
     if not isinstance(shape, PointCloud):

@@ -101,6 +101,16 @@ def test_fields_must_fit_the_shape(awkward, tmp_path, fields, complaint):
         save_shape(awkward, tmp_path / "f.ply", fields=fields)
 
 
+def test_meshlab_finds_the_first_scalar_field_as_quality(awkward, tmp_path):
+    fields = {"direction": awkward.vertices, "heat kernel": np.arange(8.0), "other": np.zeros(8)}
+    save_shape(awkward, tmp_path / "f.ply", fields=fields)
+    raw = trimesh.load(tmp_path / "f.ply", process=False).metadata["_ply_raw"]["vertex"]["data"]
+    assert_array_equal(raw["quality"], np.arange(8.0))
+    assert list(load_fields(tmp_path / "f.ply")) == ["direction", "heat_kernel", "other"]
+    save_shape(awkward, tmp_path / "g.ply", fields={"other": np.zeros(8), "quality": np.arange(8.0)})
+    assert_array_equal(load_fields(tmp_path / "g.ply")["quality"], np.arange(8.0))
+
+
 def test_a_ply_field_may_not_replace_a_coordinate(awkward, tmp_path):
     with pytest.raises(ShapeFileError, match="two properties 'x'"):
         save_shape(awkward, tmp_path / "f.ply", fields={"x": np.zeros(8)})

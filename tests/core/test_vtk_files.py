@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 
-from add_core.geometry import TriangleMesh
+from add_core.geometry import PointCloud, TriangleMesh
 from add_core.io import load_fields, load_shape, save_shape
 
 
@@ -49,19 +49,37 @@ def test_legacy_vtk_as_vtk_writes_it(awkward, tmp_path, kind, version):
     _check_vtk(awkward, tmp_path / "a.vtk", rtol=1e-9)
 
 
-def test_vtk_reads_what_is_written(awkward, tmp_path):
+@pytest.mark.parametrize("extension", [".vtk", ".vtp"])
+def test_vtk_reads_what_is_written(awkward, tmp_path, extension):
     from vtkmodules.util.numpy_support import vtk_to_numpy
+
+    fields = {"heat <kernel> & more": np.arange(8.0), "direction": awkward.vertices}
+    save_shape(awkward, tmp_path / f"a{extension}", fields=fields)
+    output = _as_vtk_reads(tmp_path / f"a{extension}")
+    assert_array_equal(vtk_to_numpy(output.GetPoints().GetData()), awkward.vertices)
+    assert_array_equal(vtk_to_numpy(output.GetPolys().GetConnectivityArray()).reshape(-1, 3), awkward.faces)
+    for name, field in fields.items():
+        assert_array_equal(vtk_to_numpy(output.GetPointData().GetArray(name)), field)
+
+
+@pytest.mark.parametrize("extension", [".vtk", ".vtp"])
+def test_vtk_shows_the_points_of_a_cloud_and_their_normals(tmp_path, extension):
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+
+    save_shape(PointCloud(np.eye(3), np.eye(3)[::-1], "three"), tmp_path / f"a{extension}")
+    output = _as_vtk_reads(tmp_path / f"a{extension}")
+    assert output.GetNumberOfVerts() == 3
+    assert_array_equal(vtk_to_numpy(output.GetPointData().GetNormals()), np.eye(3)[::-1])
+
+
+def _as_vtk_reads(path):
     from vtkmodules.vtkIOLegacy import vtkPolyDataReader
     from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
 
-    for extension, reader in ((".vtk", vtkPolyDataReader()), (".vtp", vtkXMLPolyDataReader())):
-        save_shape(awkward, tmp_path / f"a{extension}", fields={"u": np.arange(8.0)})
-        reader.SetFileName(str(tmp_path / f"a{extension}"))
-        reader.Update()
-        output = reader.GetOutput()
-        assert_array_equal(vtk_to_numpy(output.GetPoints().GetData()), awkward.vertices)
-        assert_array_equal(vtk_to_numpy(output.GetPolys().GetConnectivityArray()).reshape(-1, 3), awkward.faces)
-        assert_array_equal(vtk_to_numpy(output.GetPointData().GetArray("u")), np.arange(8.0))
+    reader = vtkPolyDataReader() if path.suffix == ".vtk" else vtkXMLPolyDataReader()
+    reader.SetFileName(str(path))
+    reader.Update()
+    return reader.GetOutput()
 
 
 def test_an_unstructured_grid_of_polygons_is_a_mesh(tmp_path):
@@ -77,9 +95,24 @@ def test_an_unstructured_grid_of_polygons_is_a_mesh(tmp_path):
 
 
 def _vtk_mesh(mesh):
-    from add_core.io.vtk_writing import _poly_data
+    from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
+    from vtkmodules.vtkCommonCore import vtkPoints
+    from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
 
-    return _poly_data(mesh, {"direction field": mesh.vertices, "u": mesh.vertices[:, 0]})
+    def array(values, name):
+        converted = numpy_to_vtk(np.ascontiguousarray(values), deep=True)
+        converted.SetName(name)
+        return converted
+
+    points, cells, data = vtkPoints(), vtkCellArray(), vtkPolyData()
+    points.SetData(array(mesh.vertices, "Points"))
+    ends = np.arange(0, mesh.faces.size + 1, 3)
+    cells.SetData(*(numpy_to_vtkIdTypeArray(part.ravel().copy(), deep=True) for part in (ends, mesh.faces)))
+    data.SetPoints(points)
+    data.SetPolys(cells)
+    for name, field in (("direction field", mesh.vertices), ("u", mesh.vertices[:, 0])):
+        data.GetPointData().AddArray(array(field, name))
+    return data
 
 
 def _check_vtk(mesh, path, rtol=1e-12):
