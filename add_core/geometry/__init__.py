@@ -6,6 +6,7 @@ from .frames import PrincipalFrames, principal_curvatures
 from .geodesics import geodesic_distances
 from .inspection import Defect, ShapeReport, inspect
 from .mesh import TriangleMesh
+from .mirror import mirror_map
 from .repair import Repair, repair
 from .sampling import Subsample, farthest_points, subsample
 from .scale import normalize
@@ -22,6 +23,7 @@ __all__ = [
     "geodesic_diameter",
     "geodesic_distances",
     "inspect",
+    "mirror_map",
     "normalize",
     "principal_curvatures",
     "repair",

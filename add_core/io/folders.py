@@ -7,7 +7,9 @@ import re
 from functools import lru_cache
 from pathlib import Path
 
+from .._check import IntArray, count_in
 from ..errors import ShapeFileError
+from ..geometry import TriangleMesh, mirror_map
 from .collection import Collection, Landmarks
 from .contents import Shape
 from .files import StrPath, load_shape
@@ -16,7 +18,7 @@ from .landmark_files import find_landmarks, find_symmetry
 from .layouts import Layout, Member, layout_of, whereabouts
 
 
-def open_collection(path: StrPath, *, only: str = "*") -> Collection:
+def open_collection(path: StrPath, *, only: str = "*", neutral: int | None = None) -> Collection:
     """The shapes in a folder, in the order of their numbers, as a Collection.
 
     Recognises FAUST's registrations (tr_reg_000.ply, …; also their folder training/registrations from further up),
@@ -26,6 +28,7 @@ def open_collection(path: StrPath, *, only: str = "*") -> Collection:
     symmetry.txt. Shapes are read when they are asked for, and the last few are kept.
 
     only : a pattern that file names without extension must fit, e.g. "cat*". Of several formats of a shape one counts.
+    neutral : the index of a shape that stands symmetrically; without symmetry.txt the mirror map is found from it.
 
     Raises ShapeFileError if there is no such folder or no shape in it, saying where the known data sets are to be had.
     """
@@ -36,6 +39,8 @@ def open_collection(path: StrPath, *, only: str = "*") -> Collection:
     layout = layout_of([file.stem for file in files])
     members = [_member(layout, file.stem) for file in files]
     numbered = find_landmarks(files)
+    if neutral is not None:
+        count_in("neutral", neutral, 0, len(files) - 1)
 
     @lru_cache(maxsize=8)
     def make_shape(index: int) -> Shape:
@@ -48,7 +53,7 @@ def open_collection(path: StrPath, *, only: str = "*") -> Collection:
     return Collection(
         title=layout.title if layout else folder.name,
         names=tuple(member.name for member in members),
-        symmetry=None if numbered else find_symmetry(folder),
+        symmetry=None if numbered else _symmetry(folder, None if neutral is None else make_shape(neutral)),
         subjects=_all_or_none([member.subject for member in members]),
         poses=_all_or_none([member.pose for member in members]),
         training=_training(members),
@@ -59,6 +64,13 @@ def open_collection(path: StrPath, *, only: str = "*") -> Collection:
         make_shape=make_shape,
         landmarks=None if numbered is None else landmarks,
     )
+
+
+def _symmetry(folder: Path, neutral: Shape | None) -> IntArray | None:
+    stored = find_symmetry(folder)
+    if stored is None and isinstance(neutral, TriangleMesh):
+        return mirror_map(neutral)
+    return stored
 
 
 def _folder_of_shapes(path: Path) -> Path:
