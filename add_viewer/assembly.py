@@ -33,6 +33,9 @@ from .views.start_page import Gallery
 CURVE_PAUSE = 180
 """Milliseconds without a change before curves are computed: a kernel that the person waits for comes first."""
 
+PICTURE_DEADLINE = 120_000
+"""Milliseconds after which a picture that is not ready is given up."""
+
 _TITLES = {"humans": "People", "poses": "Poses", "dogs": "Dogs"}
 
 
@@ -94,6 +97,8 @@ class Assembly:
             self._watch = QTimer(interval=50)
             self._watch.timeout.connect(self._take_screenshot)
             self._watch.start()
+            late = "The picture was not ready after two minutes. Is the shape very large?"
+            QTimer.singleShot(PICTURE_DEADLINE, lambda: self._leave(2, late))
         status = self.app.exec()
         self.stop()
         return status

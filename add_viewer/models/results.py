@@ -32,12 +32,15 @@ class KernelField:
     @cached_property
     def values(self) -> FloatArray:
         """(n,) the heat of all picks together, unit 1/length²."""
-        return self.columns.sum(axis=0)
+        total: FloatArray = self.columns.sum(axis=0)
+        return total
 
     @cached_property
     def shares(self) -> FloatArray:
-        """(n,) in [0, 1]: the largest of the kernels, each divided by its own maximum, so that none outshines another."""
-        return (self.columns / np.maximum(self.columns.max(axis=1, keepdims=True), 1e-300)).max(axis=0)
+        """(n,) in [0, 1]: the largest of the kernels, each divided by its own maximum: none outshines another."""
+        tops = np.maximum(self.columns.max(axis=1, keepdims=True), np.finfo(np.float64).tiny)
+        largest: FloatArray = (self.columns / tops).max(axis=0)
+        return largest
 
 
 @dataclass(frozen=True, eq=False)

@@ -99,7 +99,7 @@ class CurvePanel(QWidget):
             self._draw_moving()
 
     def _place(self) -> None:
-        ratio = self.figure.dpi / 72.0
+        ratio = self.figure.dpi / self.canvas.device_pixel_ratio / 72.0  # device-independent pixels in a point
         width, height = self.canvas.get_width_height()
         self.plots.lay_out(width / ratio, height / ratio)
 

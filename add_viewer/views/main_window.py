@@ -129,6 +129,8 @@ class MainWindow(QMainWindow):
         looks = ("front", "back", "left", "right", "top")
         for name in looks:
             self.menus.on(name, partial(self.view.canvas.look, name))
+        tools = ("arrows", "wireframe", "fit", "undo", "redo", "screenshot")
+        self.view.show_tools([self.menus.actions[name] for name in tools])
         self.menus.on("fit", self.view.canvas.fit)
         self.menus.on("undo", self.session.undo)
         self.menus.on("redo", self.session.redo)

@@ -132,8 +132,9 @@ class Menus:
         action = QAction(entry.text, self._window)
         if entry.key:
             action.setShortcut(QKeySequence(entry.key))
-        if entry.help:
-            action.setStatusTip(entry.help)
+        words = entry.text.replace("&", "").rstrip("…")
+        key = f" ({entry.key})" if entry.key else ""
+        action.setToolTip(f"{words}{key}" + (f"\n{entry.help}" if entry.help else ""))
         if entry.icon:
             self._icons.append((action, entry.icon))
         self.actions[entry.name] = action

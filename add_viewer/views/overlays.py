@@ -132,7 +132,7 @@ class Hint(Overlay):
     """What to do next, where there is nothing to see yet."""
 
     def __init__(self, parent: QWidget) -> None:
-        super().__init__(parent, QSize(420, 36))
+        super().__init__(parent, QSize(320, 36))
         self._text = ""
 
     def show_text(self, text: str) -> None:
@@ -143,7 +143,7 @@ class Hint(Overlay):
     def draw(self, painter: QPainter) -> None:
         self._pen(painter, "text")
         width = painter.fontMetrics().horizontalAdvance(self._text) + 32
-        box = QRectF((self.width() - width) / 2, 2, width, 32)
+        box = QRectF(self.width() - width - 1, 2, width, 32)
         painter.setBrush(self.theme.colour("panel"))
         painter.setPen(QPen(self.theme.colour("line"), 1))
         painter.drawRoundedRect(box, 16, 16)

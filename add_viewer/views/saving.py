@@ -86,5 +86,5 @@ class Saving:
 
 def save_image(image: QImage, path: Path) -> None:
     """Write a picture; raises OSError if Qt cannot."""
-    if not image.save(str(path), b"PNG"):
+    if not image.save(str(path), "PNG"):  # type: ignore[call-overload]  # the stub wants bytes, Qt text
         raise OSError(5, "the picture could not be written; is the disk full?", str(path))

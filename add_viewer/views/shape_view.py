@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from PySide6.QtCore import QPoint, QSize, Qt, Signal
-from PySide6.QtGui import QImage, QPainter, QResizeEvent
-from PySide6.QtWidgets import QVBoxLayout, QWidget
+from PySide6.QtGui import QAction, QImage, QPainter, QResizeEvent
+from PySide6.QtWidgets import QHBoxLayout, QToolButton, QVBoxLayout, QWidget
 
 from ..models.display import Display
 from ..models.kernel_scale import KernelScale
@@ -15,6 +15,7 @@ from .canvas import Canvas
 from .overlays import AxesTriad, ColourBar, CornerLabel, Hint, Overlay
 from .theme import GRID, Theme
 
+_TOOL = 30
 IDLE_TEXT = "Click picks a point · drag turns · wheel zooms · right click for more"
 _FRONTS = {"y": "+z", "z": "-y"}
 
@@ -38,6 +39,7 @@ class ShapeView(QWidget):
         self.colour_bar, self.label = ColourBar(self), CornerLabel(self)
         self.triad, self.hint = AxesTriad(self), Hint(self)
         self._overlays: tuple[Overlay, ...] = (self.colour_bar, self.label, self.triad, self.hint)
+        self._tools = QWidget(self)
         self._connect()
         self._show_shape()
 
@@ -133,6 +135,20 @@ class ShapeView(QWidget):
         for overlay in self._overlays:
             overlay.show_theme(theme)
 
+    def show_tools(self, actions: list[QAction]) -> None:
+        """Offer `actions` as icons in the upper right corner of the view."""
+        row = QHBoxLayout(self._tools)
+        row.setContentsMargins(0, 0, 0, 0)
+        row.setSpacing(GRID // 2)
+        for action in actions:
+            button = QToolButton()
+            button.setDefaultAction(action)
+            button.setIconSize(QSize(18, 18))
+            button.setFixedSize(_TOOL, _TOOL)
+            button.setFocusPolicy(Qt.FocusPolicy.NoFocus)
+            row.addWidget(button)
+        self._tools.setFixedSize(len(actions) * (_TOOL + GRID // 2), _TOOL)
+
     # -- what a person does -------------------------------------------------------------------------------------------
 
     def _clicked(self, vertex: int, modifiers: Qt.KeyboardModifier) -> None:
@@ -158,9 +174,10 @@ class ShapeView(QWidget):
         super().resizeEvent(event)
         width, height, gap = self.width(), self.height(), 2 * GRID
         self.label.move(gap, gap)
+        self._tools.move(width - self._tools.width() - gap, gap)
         self.triad.move(gap - 4, height - self.triad.height() - gap + 4)
         self.colour_bar.move(width - self.colour_bar.width() - gap, height - self.colour_bar.height() - gap)
-        self.hint.move((width - self.hint.width()) // 2, height - self.hint.height() - gap)
+        self.hint.move(width - self.hint.width() - gap, height - self.hint.height() - gap)
 
     def picture(self, scale: float, *, transparent: bool = False, labels: bool = True) -> QImage:
         """What the view shows at `scale` times its size, without the hint."""

@@ -122,7 +122,8 @@ QMenu {{ background: {theme.panel}; border: 1px solid {theme.line}; padding: 4px
 QMenu::item {{ padding: 5px 28px 5px 24px; border-radius: 4px; }}
 QMenu::item:disabled {{ color: {theme.muted}; }}
 QMenu::separator {{ height: 1px; background: {theme.line}; margin: 4px 8px; }}
-QStatusBar {{ background: {theme.window}; border-top: 1px solid {theme.line}; color: {theme.muted}; }}
+QStatusBar {{ background: {theme.window}; border-top: 1px solid {theme.line}; }}
+QStatusBar QLabel {{ color: {theme.muted}; padding: 0 8px; }}
 QStatusBar::item {{ border: none; }}
 QLineEdit {{ background: {theme.field}; border: 1px solid {theme.line}; border-radius: 4px; padding: 3px 6px;
     min-height: 18px; selection-background-color: {theme.accent}; selection-color: {theme.on_accent}; }}
@@ -131,6 +132,7 @@ QComboBox {{ min-height: 22px; }}
 QPushButton, QToolButton {{ background: {theme.panel}; border: 1px solid {theme.line}; border-radius: 4px;
     padding: 4px 10px; min-height: 18px; }}
 QToolButton {{ padding: 4px; }}
+QToolButton:disabled, QPushButton:disabled {{ color: {theme.muted}; }}
 QToolButton[quiet="true"] {{ border: 1px solid transparent; background: transparent; }}
 QPushButton:hover, QToolButton:hover {{ border-color: {theme.muted}; }}
 QPushButton:pressed, QToolButton:pressed, QToolButton:checked, QPushButton:checked {{ border-color: {theme.accent};
