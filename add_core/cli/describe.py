@@ -65,7 +65,7 @@ _DIRECTED = ("ahks", "geometry-vectors")
 
 
 @click.command("describe")
-@click.argument("shape")
+@click.argument("names", metavar="[MODEL] SHAPE", nargs=-1, required=True)
 @click.option("--descriptor", type=click.Choice(list(SIGNATURES)), default="ahks", show_default=True)
 @click.option("--numbers", type=int, default=16, show_default=True, help="Times, energies, frequencies or splines.")
 @click.option("--alphas", type=options.Numbers(), default=(50.0,), show_default="50", help="Of directed descriptors.")
@@ -76,7 +76,7 @@ _DIRECTED = ("ahks", "geometry-vectors")
 @options.output(extensions(holding_fields=True), required=True)
 @options.as_json
 def command(
-    shape: str,
+    names: tuple[str, ...],
     descriptor: str,
     numbers: int,
     alphas: tuple[float, ...],
@@ -89,9 +89,14 @@ def command(
 ) -> None:
     """A signature of every vertex of SHAPE, as a field of the shape in the file written.
 
+    MODEL is a file of `add-core train`, or the name of a shipped one such as humans-madd3; it knows all options itself.
     hks, si-hks, wks and wft are isotropic: they cannot tell left from right. ahks and geometry-vectors have `numbers`
     values for each α and angle, angle after angle.
     """
+    if len(names) > 1:
+        _learned(names, output, as_json=as_json)
+        return
+    shape = names[0]
     worked_on = options.shape_to_work_on(shape, own_units=own_units)
     directed = descriptor in _DIRECTED
     with progress("Spectra", as_json=as_json) as advance:
@@ -111,6 +116,25 @@ def command(
         "vertices": len(values),
         "numbers": values.shape[1],
         "unit of length": options.length_unit(own_units),
+        "output": str(output),
+    }
+    result(facts, as_json=as_json)
+
+
+def _learned(names: tuple[str, ...], output: Path, *, as_json: bool) -> None:
+    if len(names) > 2:
+        raise click.UsageError(f"One model and one shape at a time, but there are {len(names)} names.")
+    from ..learning import load_model
+
+    model, shape = load_model(names[0]), open_shape(names[1])
+    with progress("Spectra", as_json=as_json) as advance:
+        values = model.describe(shape, progress=advance)
+    save_shape(shape, output, fields={"learned": values})
+    facts = {
+        "descriptor": names[0],
+        "vertices": len(values),
+        "numbers": values.shape[1],
+        "unit of length": options.length_unit(False),
         "output": str(output),
     }
     result(facts, as_json=as_json)

@@ -21,6 +21,7 @@ Progress = Callable[[int, int], object]
 
 FLOOR = 0.01
 """Where a point holds less than a hundredth of the average, by how much less is rounding and sampling."""
+FEWEST_SPLINES = 4
 FLAT = 0.05
 """Smallest standard deviation that is scaled up to 1: a spline on which all points agree holds noise only."""
 
@@ -40,6 +41,11 @@ class InputRecipe:
     splines: int = 96
     conductivity: Conductivity = "curvature"
     isotropic: bool = False
+
+    def __post_init__(self) -> None:
+        channel_count(self.alphas, self.angles)
+        count_in("eigenpairs", self.eigenpairs, 2, 1_000_000)
+        count_in("splines", self.splines, FEWEST_SPLINES, 100_000)
 
     @property
     def channels(self) -> int:
@@ -85,7 +91,6 @@ def relative_density(family: SpectralFamily, *, count: int) -> Inputs:
     of a training set, the rougher skin of a scan shifts every spline.
     """
     reach, area = spline_reach([family]), float(family.mass.sum())
-    count_in("count", count, 4, 100_000)
     values = np.empty((len(family.mass), len(family), count), dtype=np.float32)
     for channel, (spectrum, end) in enumerate(zip(family, reach, strict=True)):
         splines = splines_at(spectrum.eigenvalues, count=count, reach=end)

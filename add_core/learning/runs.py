@@ -16,6 +16,7 @@ from .inputs import InputRecipe
 from .model import Model
 from .training import Report, TrainingSettings, fit
 from .training_set import Precision, TrainingShape, places_of, prepare
+from .variations import vary
 
 INPUTS = "inputs"
 """Folder of a run that holds the prepared inputs, several MB a shape; it may be deleted once the model is there."""
@@ -34,10 +35,12 @@ class LearningTask:
     symmetry: IntArray | None = None
 
     @classmethod
-    def of(cls, collection: Collection) -> LearningTask:
+    def of(cls, collection: Collection, *, variations: int = 0, seed: int = 0) -> LearningTask:
         """The training part of a collection's split, all of it where there is no split; its test part is left alone.
 
         The last of three or more subjects is kept for validation, else the last tenth of the shapes.
+        variations : of each training shape, beside the shape itself; see `vary`. The validation shapes, then, are one
+            as it is and one varied by turns: a deliberately different set.
         """
         chosen = np.arange(len(collection)) if collection.training is None else collection.split("train")
         subjects = [collection.subjects[i] if collection.subjects is not None else "" for i in chosen]
@@ -49,11 +52,13 @@ class LearningTask:
                 f"{collection.title} must hold at least four shapes to train on, but it has {len(chosen)}."
             )
         reference = int(chosen[0])
-        return cls(
-            places_of(collection, chosen[~held], reference=reference),
-            places_of(collection, chosen[held], reference=reference),
-            collection.symmetry,
-        )
+        training = places_of(collection, chosen[~held], reference=reference)
+        validation = places_of(collection, chosen[held], reference=reference)
+        seeds = iter(np.random.SeedSequence(seed).generate_state(len(chosen) * (1 + variations)).tolist())
+        varied = [vary(item, seed=next(seeds)) for _ in range(variations) for item in training]
+        if variations:
+            validation = [vary(item, seed=next(seeds)) if i % 2 else item for i, item in enumerate(validation)]
+        return cls([*training, *varied], validation, collection.symmetry)
 
 
 def train(

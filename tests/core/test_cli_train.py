@@ -1,0 +1,76 @@
+"""`add-core train` and `add-core describe` with what it made."""
+
+import json
+
+import numpy as np
+import pytest
+import torch
+
+from add_core.cli import main
+from add_core.geometry import TriangleMesh
+from add_core.geometry.shapes import ellipsoid
+from add_core.io import load_fields, save_shape
+
+SMALL = ["--angles", "2", "--count", "30", "--splines", "8", "--steps", "6", "--pairs", "16", "--architecture", "mADD2"]
+
+
+def run(capsys, *arguments):
+    with pytest.raises(SystemExit) as stop:
+        main([str(argument) for argument in arguments])
+    said = capsys.readouterr()
+    return stop.value.code, said.out, said.err
+
+
+@pytest.fixture(autouse=True)
+def _one_thread():
+    torch.set_num_threads(1)
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("bodies")
+    mesh = ellipsoid(1.0, 0.7, 0.5, subdivisions=2)
+    for number in range(5):
+        lumps = 1 + 0.2 * np.sin(2 * mesh.vertices[:, 0] + 0.1 * number) + 0.1 * np.cos(4 * mesh.vertices[:, 1])
+        save_shape(TriangleMesh(mesh.vertices * lumps[:, None], mesh.faces), folder / f"body{number}.ply")
+    return folder
+
+
+def test_a_folder_of_shapes_makes_a_model_that_describes_a_shape(capsys, folder, tmp_path):
+    status, out, err = run(capsys, "train", "--data", folder, "-o", tmp_path / "run", "--json", *SMALL)
+    events = [json.loads(line) for line in out.splitlines()]
+    assert (status, err) == (0, "")
+    assert [event["step"] for event in events if event["event"] == "step"] == [1, 2, 3, 4, 5, 6]
+    assert [event["right_side"] for event in events if event["event"] == "validation"] == [None]
+    model, described = events[-1]["model"], tmp_path / "described.ply"
+    status, out, _ = run(capsys, "describe", model, folder / "body0.ply", "-o", described)
+    assert (status, "numbers" in out) == (0, True)
+    assert load_fields(described)["learned"].shape == (162, 16)
+
+
+def test_training_again_finds_the_work_done(capsys, folder, tmp_path):
+    arguments = ["train", "--data", folder, "-o", tmp_path / "run", *SMALL]
+    assert run(capsys, *arguments)[0] == 0
+    before = (tmp_path / "run" / "model.safetensors").read_bytes()
+    status, out, _ = run(capsys, *arguments, "--json")
+    assert status == 0
+    assert not [line for line in out.splitlines() if json.loads(line)["event"] == "step"]
+    assert (tmp_path / "run" / "model.safetensors").read_bytes() == before
+
+
+@pytest.mark.parametrize(
+    ("arguments", "complaint"),
+    [
+        (["train", "--data", "unicorns", "-o", "run"], "there is no folder 'unicorns'"),
+        (["train", "--data", "humans", "-o", "run", "--steps", "0"], "steps must be from 1"),
+        (["train", "--data", "humans", "-o", "run", "--angles", "0"], "angles must be from 1"),
+        (["describe", "unicorns-madd3", "humans:0", "-o", "x.ply"], "must be a file or a shipped model"),
+        (["describe", "a", "b", "c", "-o", "x.ply"], "there are 3 names"),
+    ],
+)
+def test_mistakes_cost_one_line(capsys, tmp_path, monkeypatch, arguments, complaint):
+    monkeypatch.chdir(tmp_path)
+    status, out, err = run(capsys, *arguments)
+    assert (status, out, err.count("\n")) == (2, "", 1)
+    assert complaint in err
+    assert not list(tmp_path.iterdir())
