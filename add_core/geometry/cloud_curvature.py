@@ -5,9 +5,10 @@ from __future__ import annotations
 import numpy as np
 
 from .._check import FloatArray
+from .direction_field import ComplexArray, TangentBasis
 from .tangent_planes import TangentPlanes
 
-BENDING_NEIGHBOURS = 12
+BENDING_NEIGHBOURS = 14
 """Neighbours whose normals tell the curvature of a point."""
 SMOOTHING_ROUNDS = 2
 
@@ -24,20 +25,30 @@ def point_curvature_tensors(planes: TangentPlanes, *, rounds: int = SMOOTHING_RO
     *across* it: the eigenvector of the largest |eigenvalue| is the direction of MINIMUM curvature. Zero where
     fewer than two neighbours lie on the surface.
     """
-    k = min(BENDING_NEIGHBOURS, planes.neighbours.shape[1])
-    use = planes.on_surface[:, :k]
-    middle = planes.distances[:, k // 2, None] if k else planes.distances
-    weight = np.where(use, np.exp(-((planes.distances[:, :k] / middle) ** 2)), 0.0)
+    count = BENDING_NEIGHBOURS
+    weight = planes.nearest.ball_weights(count) * planes.on_surface[:, :count]
+    neighbours = planes.nearest.indices[:, :count]
     s11, s12, s22 = _fitted_shape_operators(planes, weight)
-    first, second = planes.basis.first, planes.basis.second
-    mixed = first[:, :, None] * second[:, None, :]
-    # Turned by 90°, as Cohen-Steiner and Morvan's tensor is: what bends along `first` stands at `second`.
-    tensors = s22[:, None, None] * first[:, :, None] * first[:, None, :]
-    tensors += s11[:, None, None] * second[:, :, None] * second[:, None, :]
-    tensors -= s12[:, None, None] * (mixed + mixed.transpose(0, 2, 1))
+    mean, double_angle = (s11 + s22) / 2, (s11 - s22) / 2 + 1j * s12
+    # Tensors in space would lose what sticks out of the tangent plane that they are averaged in: carry them over
+    # first.
+    carry = planes.basis.transport(np.stack([neighbours.ravel(), np.repeat(np.arange(len(mean)), weight.shape[1])], 1))
+    carried = weight * carry.reshape(weight.shape)
+    total = 1 + weight.sum(axis=1)
     for _ in range(rounds):
-        around = np.einsum("nk,nkij->nij", weight, tensors[planes.neighbours[:, :k]])
-        tensors = (tensors + around) / (1 + weight.sum(axis=1))[:, None, None]
+        mean = (mean + (weight * mean[neighbours]).sum(axis=1)) / total
+        double_angle = (double_angle + (carried * double_angle[neighbours]).sum(axis=1)) / total
+    return _turned_tensors(mean, double_angle, planes.basis)
+
+
+def _turned_tensors(mean: FloatArray, double_angle: ComplexArray, basis: TangentBasis) -> FloatArray:
+    """Tensors in space, turned by 90° as Cohen-Steiner and Morvan's are: what bends along `first` stands at
+    `second`."""
+    first, second = basis.first, basis.second
+    mixed = first[:, :, None] * second[:, None, :]
+    tensors = (mean - double_angle.real)[:, None, None] * first[:, :, None] * first[:, None, :]
+    tensors += (mean + double_angle.real)[:, None, None] * second[:, :, None] * second[:, None, :]
+    tensors -= double_angle.imag[:, None, None] * (mixed + mixed.transpose(0, 2, 1))
     return np.asarray(tensors)
 
 
@@ -45,8 +56,7 @@ def _fitted_shape_operators(planes: TangentPlanes, weight: FloatArray) -> tuple[
     """s11, s12, s22 (n,): the symmetric least-squares fit of Δn = S p in each tangent plane."""
     k = weight.shape[1]
     x, y = planes.plane[:, :k, 0], planes.plane[:, :k, 1]
-    u = np.einsum("nki,ni->nk", planes.bends[:, :k], planes.basis.first)
-    v = np.einsum("nki,ni->nk", planes.bends[:, :k], planes.basis.second)
+    u, v = planes.bends[:, :k, 0], planes.bends[:, :k, 1]
     xx, xy, yy = (weight * x * x).sum(1), (weight * x * y).sum(1), (weight * y * y).sum(1)
     right = np.stack([(weight * u * x).sum(1), (weight * (u * y + v * x)).sum(1), (weight * v * y).sum(1)], axis=1)
     zero = np.zeros_like(xx)

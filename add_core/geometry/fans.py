@@ -45,12 +45,12 @@ def build_fans(points: FloatArray, normals: FloatArray, planes: TangentPlanes, d
     corners.
     """
     stars = _stars(planes, planes.on_surface)
-    lonely = np.setdiff1d(np.arange(len(planes.neighbours)), stars)
+    lonely = np.setdiff1d(np.arange(len(planes.near)), stars)
     if len(lonely):
         at_hand = np.zeros_like(planes.near)
         at_hand[lonely] = planes.near[lonely]
         stars = np.concatenate([stars, _stars(planes, at_hand)])
-    triangles, weights = _shared_by_duplicates(stars, _weights(stars, len(planes.neighbours)), distinct)
+    triangles, weights = _shared_by_duplicates(stars, _weights(stars, len(planes.near)), distinct)
     isolated = np.setdiff1d(np.arange(len(distinct.place)), triangles)
     if len(isolated):
         _log.warning("%d of %d points touch no triangle (first: %d).", len(isolated), len(distinct.place), isolated[0])
@@ -61,16 +61,18 @@ def build_fans(points: FloatArray, normals: FloatArray, planes: TangentPlanes, d
 
 def _stars(planes: TangentPlanes, usable: BoolArray) -> IntArray:
     """(t, 3): centre and two neighbours, as numbers of distinct points."""
-    n, k = planes.neighbours.shape
+    n, k = planes.near.shape
     if k < 2:
         return np.empty((0, 3), dtype=np.int64)
     # Points of a grid lie on common circles. A tiny fixed weight per point decides which diagonal all fans around
     # take.
-    spacing = float(np.median(planes.distances[:, :1]))
-    weight = np.random.default_rng(0).uniform(0.0, _TIE * spacing**2, size=n)
-    stars = delaunay_stars(planes.plane, usable, weight[planes.neighbours] - weight[:, None])
+    spacing = float(np.median(planes.nearest.distances[:, :1]))
+    weight = _TIE * spacing**2 * np.random.default_rng(0).random(size=(n,))
+    stars = delaunay_stars(planes.plane, usable, weight[planes.nearest.indices] - weight[:, None])
     centre = stars[:, 0]
-    return np.stack([centre, planes.neighbours[centre, stars[:, 1]], planes.neighbours[centre, stars[:, 2]]], axis=1)
+    return np.stack(
+        [centre, planes.nearest.indices[centre, stars[:, 1]], planes.nearest.indices[centre, stars[:, 2]]], axis=1
+    )
 
 
 def _weights(stars: IntArray, count: int) -> FloatArray:

@@ -25,6 +25,16 @@ class Neighbours:
     indices: IntArray
     distances: FloatArray
 
+    def ball_weights(self, count: int) -> FloatArray:
+        """(n, count): 1 − d²/ε² of the nearest neighbours at distance d, ε as far as the last of them.
+
+        The ball's border weighs nothing, so it does not matter which of several points there come last.
+        """
+        distances = self.distances[:, :count]
+        # With hardly any neighbours a border without weight would leave too few: reach past the last one.
+        radius = distances[:, -1:] * (1.0 if distances.shape[1] > 4 else 1.5)
+        return np.asarray(1.0 - (distances / radius) ** 2)
+
     @property
     def lengths(self) -> csr_array:
         """(n, n): a graph of distances between neighbours, to be read as undirected; duplicates are 0 apart."""

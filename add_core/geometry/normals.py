@@ -9,7 +9,7 @@ from scipy.sparse.csgraph import breadth_first_order, connected_components, mini
 from .._check import FloatArray, IntArray
 from .neighbours import Neighbours, nearest_neighbours, undirected
 
-BALL_NEIGHBOURS = 10
+BALL_NEIGHBOURS = 12
 """The ε-ball of a point reaches to this one of its nearest neighbours: ε follows the density of the cloud."""
 PROPAGATION_NEIGHBOURS = 14
 """Neighbours that a point's orientation may come from."""
@@ -42,13 +42,10 @@ def reflected_cosines(directions: FloatArray, normals: FloatArray, others: Float
 
 
 def _fitted_normals(points: FloatArray, nearest: Neighbours) -> FloatArray:
-    k = min(BALL_NEIGHBOURS, nearest.indices.shape[1])
-    offset = points[nearest.indices[:, :k]] - points[:, None]
-    middle = nearest.distances[:, k // 2, None]
-    weight = np.exp(-((nearest.distances[:, :k] / middle) ** 2))
-    total = 1.0 + weight.sum(axis=1)  # the point itself weighs 1
-    centred = offset - (np.einsum("nk,nki->ni", weight, offset) / total[:, None])[:, None]
-    mean = np.einsum("nk,nki->ni", weight, offset) / total[:, None]
+    weight = nearest.ball_weights(BALL_NEIGHBOURS)
+    offset = points[nearest.indices[:, :BALL_NEIGHBOURS]] - points[:, None]
+    mean = np.einsum("nk,nki->ni", weight, offset) / (1.0 + weight.sum(axis=1))[:, None]  # the point itself weighs 1
+    centred = offset - mean[:, None]
     spread = np.einsum("nk,nki,nkj->nij", weight, centred, centred) + mean[:, :, None] * mean[:, None, :]
     scale = np.maximum(np.einsum("nii->n", spread), np.finfo(float).tiny)
     return np.asarray(np.linalg.eigh(spread / scale[:, None, None])[1][:, :, 0])

@@ -6,9 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .._check import BoolArray, FloatArray, IntArray
+from .._check import BoolArray, FloatArray
 from .direction_field import TangentBasis
-from .neighbours import nearest_neighbours
+from .neighbours import Neighbours, nearest_neighbours
 from .normals import reflected_cosines
 
 FAN_NEIGHBOURS = 20
@@ -23,25 +23,24 @@ LEAST_AGREEMENT = 0.3
 
 @dataclass(frozen=True, eq=False)
 class TangentPlanes:
-    """Neighbours of every point projected onto its tangent plane.
+    """Neighbours of every point, and how their normals turn, projected onto its tangent plane.
 
-    basis : of the planes. neighbours : (n, k), nearest first. plane : (n, k, 2), coordinates of the neighbours in
-        `basis`,
-    the point itself at 0, each as far away as in space, so that bending draws no neighbour nearer. bends : (n, k,
-    3), normal of the neighbour minus normal of the point.
+    basis : of the planes.
+    nearest : neighbours (n, k) and their distances, in the cloud's own unit.
+    plane : (n, k, 2), coordinates of the neighbours in `basis`, the point itself at 0. Each is as far away as in
+        space, so that bending draws no neighbour nearer.
+    bends : (n, k, 2), normal of the neighbour minus normal of the point in `basis`, as long as in space.
     near : (n, k): the neighbour has neighbours of its own about as far away; nothing is near to an outlier.
     on_surface : (n, k): near, neither end of the chord sees the other steeply above or below, and their normals
         agree.
-    distances : (n, k), straight.
     """
 
     basis: TangentBasis
-    neighbours: IntArray
+    nearest: Neighbours
     plane: FloatArray
     bends: FloatArray
     near: BoolArray
     on_surface: BoolArray
-    distances: FloatArray
 
     @classmethod
     def of(cls, points: FloatArray, normals: FloatArray, *, count: int = FAN_NEIGHBOURS) -> TangentPlanes:
@@ -55,13 +54,16 @@ class TangentPlanes:
             np.abs(np.einsum("nki,nki->nk", direction, here)), np.abs(np.einsum("nki,nki->nk", direction, other))
         )
         agree = reflected_cosines(direction, here, other) > LEAST_AGREEMENT
-        basis = TangentBasis.of(normals, points)
-        plane = np.stack(
-            [np.einsum("nki,ni->nk", offset, basis.first), np.einsum("nki,ni->nk", offset, basis.second)], axis=2
-        )
-        flat = np.maximum(np.linalg.norm(plane, axis=2), np.finfo(float).tiny)
-        plane *= (nearest.distances / flat)[:, :, None]
         reach = nearest.distances[:, -1:].max(axis=1, initial=0.0)
         near = nearest.distances <= FARTHEST * reach[nearest.indices]
-        on_surface = near & agree & (slope < STEEPEST)
-        return cls(basis, nearest.indices, plane, other - here, near, on_surface, nearest.distances)
+        basis = TangentBasis.of(normals, points)
+        plane, bends = _laid_down(offset, basis), _laid_down(other - here, basis)
+        return cls(basis, nearest, plane, bends, near, near & agree & (slope < STEEPEST))
+
+
+def _laid_down(vectors: FloatArray, basis: TangentBasis) -> FloatArray:
+    """(n, k, 2): vectors (n, k, 3) turned down into the tangent planes of their rows, their lengths kept."""
+    along = np.einsum("nki,ni->nk", vectors, basis.first), np.einsum("nki,ni->nk", vectors, basis.second)
+    flat = np.stack(along, axis=2)
+    shadow = np.maximum(np.linalg.norm(flat, axis=2), np.finfo(float).tiny)
+    return np.asarray(flat * (np.linalg.norm(vectors, axis=2) / shadow)[:, :, None])

@@ -1,0 +1,89 @@
+"""Estimated normals of clouds whose normals are known."""
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+from add_core.geometry import PointCloud, subsample
+from add_core.geometry.normals import estimate_normals, reflected_cosines
+from add_core.geometry.shapes import cylinder, ellipsoid, rectangle, sphere, torus
+
+
+def random_rotation(seed):
+    q = np.linalg.qr(np.random.default_rng(seed).normal(size=(3, 3)))[0]
+    return q * np.linalg.det(q)
+
+
+@pytest.mark.parametrize("shape", [sphere(4), ellipsoid(1.0, 0.6, 0.3), torus(), cylinder(radius=0.4, height=3.0)])
+def test_normals_point_outward_everywhere(shape):
+    normals = PointCloud(shape.vertices).outward_normals
+    assert np.einsum("ni,ni->n", normals, shape.vertex_normals).min() > 0.95
+
+
+def test_normals_of_a_sphere_are_its_radii():
+    points = subsample(sphere(5), 1500).cloud.points
+    angle = np.arccos(np.einsum("ni,ni->n", estimate_normals(points), points))
+    assert np.degrees(np.median(angle)) < 1.0
+    assert np.degrees(angle.max()) < 6.0
+
+
+def test_normals_of_a_plane_are_all_the_same_and_exact():
+    points = rectangle(n=8).vertices @ random_rotation(3).T
+    normals = estimate_normals(points)
+    assert_allclose(np.abs(normals @ (random_rotation(3) @ [0, 0, 1])), 1.0, atol=1e-12)
+    assert_allclose(normals @ normals[0], 1.0, atol=1e-12)
+
+
+def test_every_piece_is_turned_outward_on_its_own():
+    ball = sphere(3).vertices
+    normals = estimate_normals(np.vstack([ball, ball * 0.5 + [4.0, 0, 0], ball + np.array([0, 9.0, 0])]))
+    assert np.einsum("ni,ni->n", normals, np.vstack([ball] * 3)).min() > 0.9
+
+
+def test_two_walls_that_face_each_other_point_at_each_other():
+    """Two balls a little apart: the propagation must turn round on its way across the gap."""
+    ball = sphere(3).vertices
+    normals = estimate_normals(np.vstack([ball, ball + np.array([2.3, 0, 0])]))
+    assert np.einsum("ni,ni->n", normals, np.vstack([ball, ball])).min() > 0.9
+
+
+@pytest.mark.parametrize("unit", [1e-6, 1e6])
+def test_normals_follow_rigid_motion_and_ignore_the_unit(unit):
+    points = subsample(torus(), 700).cloud.points
+    turn = random_rotation(1)
+    moved = unit * (points @ turn.T + [1.0, -2.0, 3.0])
+    assert_allclose(estimate_normals(moved), estimate_normals(points) @ turn.T, atol=1e-6)
+
+
+def test_normals_do_not_depend_on_the_order_of_the_points():
+    points = subsample(torus(), 700).cloud.points
+    order = np.random.default_rng(2).permutation(700)
+    assert_allclose(estimate_normals(points[order]), estimate_normals(points)[order], atol=1e-9)
+
+
+def test_normals_that_are_given_are_kept():
+    ball = sphere(2).vertices
+    assert_allclose(PointCloud(ball, -3 * ball).outward_normals, -ball, atol=1e-15)
+
+
+def test_points_in_one_place_have_one_normal():
+    ball = sphere(2).vertices
+    normals = PointCloud(np.vstack([ball, ball[:40]])).outward_normals
+    assert_allclose(normals[162:], normals[:40])
+    assert np.einsum("ni,ni->n", normals[:162], ball).min() > 0.95
+
+
+@pytest.mark.parametrize("count", [1, 2, 3, 10])
+def test_few_points_have_unit_normals(count):
+    points = np.random.default_rng(0).normal(size=(count, 3))
+    assert_allclose(np.linalg.norm(estimate_normals(points), axis=1), 1.0)
+
+
+def test_normals_of_one_circle_agree_after_reflection_however_far_apart():
+    angle = np.linspace(0.1, 6.0, 25)
+    normals = np.stack([np.cos(angle), np.sin(angle), 0 * angle], axis=1)
+    chord = normals[1:] - normals[0]
+    chord /= np.linalg.norm(chord, axis=1, keepdims=True)
+    here = np.broadcast_to(normals[0], chord.shape)
+    assert_allclose(reflected_cosines(chord, here, normals[1:]), 1.0, atol=1e-12)
+    assert_allclose(reflected_cosines(chord, here, -normals[1:]), -1.0, atol=1e-12)
