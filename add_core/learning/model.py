@@ -81,6 +81,7 @@ class Model:
     def save(self, path: str | Path) -> None:
         """Write the model as safetensors, replacing what is there only once everything is written."""
         about = {
+            "format": FORMAT,
             "architecture": asdict(self.network.architecture),
             "recipe": asdict(self.recipe),
             "standardisation": self.standardisation,
@@ -92,7 +93,9 @@ class Model:
         target = Path(path)
         target.parent.mkdir(parents=True, exist_ok=True)
         unfinished = target.with_name(f".{target.name}.part")
-        save_file(tensors, str(unfinished), metadata={"format": FORMAT, "about": json.dumps(about)})
+        save_file(
+            tensors, str(unfinished), metadata={"about": json.dumps(about)}
+        )  # one entry: several come in random order
         unfinished.replace(target)
 
 
@@ -106,11 +109,11 @@ def load_model(model: str | Path) -> Model:
         path = _shipped(str(model))
     try:
         with safe_open(str(path), framework="pt") as file:
-            facts = file.metadata() or {}
-            if facts.get("format") != FORMAT:
+            about = json.loads((file.metadata() or {}).get("about", "{}"))
+            if about.get("format") != FORMAT:
                 raise ShapeFileError(f"{path}: holds no model of this program's format ({FORMAT}).")
             tensors = {name: file.get_tensor(name) for name in file.keys()}
-        return _assembled(json.loads(facts["about"]), tensors)
+        return _assembled(about, tensors)
     except (SafetensorError, OSError, KeyError, TypeError, ValueError, RuntimeError) as error:
         if isinstance(error, AddError):
             raise
