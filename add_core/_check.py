@@ -47,7 +47,7 @@ def faces_array(value: ArrayLike, vertex_count: int) -> IntArray:
         quads = " Split quads into triangles first." if raw.ndim == 2 and raw.shape[1] == 4 else ""
         raise GeometryError(f"faces must have shape (m, 3), but it has {raw.shape}.{quads}")
     if len(raw) == 0:
-        raise GeometryError("faces must hold at least one triangle, but it is empty. Open points alone as a PointCloud.")
+        raise GeometryError("faces must hold at least one triangle, but it is empty. Open mere points as a PointCloud.")
     if raw.dtype.kind not in "iu":
         raise GeometryError(f"faces must hold integers, but it holds {raw.dtype}.")
     array = np.array(raw, dtype=np.int64)
@@ -101,7 +101,8 @@ def positive_array(name: str, value: ArrayLike) -> FloatArray:
         raise ParameterError(f"{name} must be a list of numbers, but it has shape {array.shape}.")
     bad = ~(np.isfinite(array) & (array > 0))
     if bad.any():
-        raise ParameterError(f"{name} must be finite and greater than 0, but number {np.argmax(bad)} is {array[bad][0]}.")
+        first = int(np.argmax(bad))
+        raise ParameterError(f"{name} must be finite and greater than 0, but number {first} is {array[first]}.")
     return array
 
 
