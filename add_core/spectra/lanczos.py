@@ -16,10 +16,11 @@ import numpy as np
 from .._check import FloatArray
 from ..errors import ConvergenceError
 
-LOOSE = 1e-9
-"""A full pass that finds overlaps larger than this with earlier vectors came too late: from then on every block gets
-one.
-"""
+LOOSE = 3e-8
+"""A full pass that finds overlaps larger than this with earlier vectors came late: from then on every block gets one."""
+
+LOST = 1e-6
+"""Overlaps larger than this have spoilt the projected matrix already: only a new start helps."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -60,7 +61,7 @@ def shift_invert_lanczos(
     first_check, most : rows of the basis at the first test of convergence, and at which to give up.
     tolerance : of residuals relative to max(value, floor).
     always : orthogonalise every block against all others from the start.
-    Raises ConvergenceError if `most` rows do not suffice.
+    Raises ConvergenceError if `most` rows do not suffice, or if skipped passes cost too much orthogonality.
     """
     basis = _Basis(kernel, shift, most, block, seed=seed, always=always)
     check = first_check
@@ -134,16 +135,16 @@ class _Basis:
         """Apply the operator to the newest block, orthogonalise, and let the result be the next."""
         j, b, q = self.size, self._block, self.rows
         new = np.ascontiguousarray(solve(np.ascontiguousarray(q[j:].T)).T)
-        low = max(0, j - b)
+        low, size = max(0, j - b), float(np.linalg.norm(new))
         overlaps = np.zeros((b, j + b))
         overlaps[:, low:] = new @ q[low:].T
         new -= overlaps[:, low:] @ q[low:]
-        scale = np.linalg.norm(new)
+        scale = max(float(np.linalg.norm(new)), 1e-8 * size)  # nothing but rounding where the space is exhausted
         if self._always or self._step % 3 < 2:
             found = new @ q.T
             new -= found @ q
             overlaps += found
-            self._always |= bool(np.abs(found[:, :low]).max(initial=0.0) > LOOSE * scale)
+            self._watch(float(np.abs(found[:, :low]).max(initial=0.0)) / scale)
         else:
             found = new @ q[low:].T
             new -= found @ q[low:]
@@ -153,6 +154,13 @@ class _Basis:
         self.size += b
         self._step += 1
         self._append(new)
+
+    def _watch(self, overlap: float) -> None:
+        if overlap > LOST and not self._always:
+            raise ConvergenceError(
+                f"Lanczos vectors overlap by {overlap:.1e}; the shift is too close to an eigenvalue."
+            )
+        self._always |= overlap > LOOSE
 
     def _append(self, new: FloatArray) -> None:
         """Let an orthonormal basis of the rows `new` follow; new = Rᵀ basis, R kept for residuals."""

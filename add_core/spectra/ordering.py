@@ -112,8 +112,7 @@ def _graph_places(indptr: IntArray, indices: IntArray) -> FloatArray:
     The last column tells components apart, so that a half is cut between components before it is cut through one.
     """
     n = len(indptr) - 1
-    ones: FloatArray = np.ones(len(indices))
-    graph = csr_array((ones, indices, indptr), shape=(n, n))
+    graph = csr_array((np.ones(len(indices), dtype=np.int8), indices, indptr), shape=(n, n))
     labels = connected_components(graph, directed=False)[1]
     columns = np.zeros((n, LANDMARKS))
     nearest = np.full(n, np.inf)

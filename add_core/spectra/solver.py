@@ -90,12 +90,14 @@ class PencilSolver:
     @cached_property
     def _indices(self) -> IntArray:
         numbers: IntArray = np.cumsum(self.active) - 1
-        return numbers[self.indices[self._entries]]
+        kept: IntArray = numbers[self.indices[self._entries]]
+        return kept
 
     @cached_property
     def _indptr(self) -> IntArray:
         starts: IntArray = np.searchsorted(self._entries, self.indptr).astype(np.int64)
-        return starts[np.append(self.active, True)]
+        kept: IntArray = starts[np.append(self.active, True)]
+        return kept
 
     @cached_property
     def tree(self) -> FrontTree:
