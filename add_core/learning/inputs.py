@@ -41,6 +41,7 @@ class InputRecipe:
     splines: int = 96
     conductivity: Conductivity = "curvature"
     isotropic: bool = False
+    logarithm: bool = True
 
     def __post_init__(self) -> None:
         channel_count(self.alphas, self.angles)
@@ -79,6 +80,8 @@ class InputRecipe:
     def inputs(self, family: SpectralFamily) -> Inputs:
         """Inputs of every vertex, shape (n, C, M), before standardisation; see `relative_density`."""
         values = relative_density(family, count=self.splines)
+        if not self.logarithm:
+            np.subtract(np.exp(values, out=values), np.float32(FLOOR), out=values)
         return np.repeat(values, self.channels, axis=1) if self.isotropic else values
 
 
