@@ -12,10 +12,10 @@ help: ## list the targets
 
 run: $(if $(UNATTENDED),virtual-screen) .venv/installed ## open the app on a shipped person (no display: write add-viewer.png)
 ifeq ($(UNATTENDED),yes)
-	@.ci/with-screen .venv/bin/add-viewer --screenshot add-viewer.png
+	@.ci/with-screen .venv/bin/add-viewer humans/0 --pick 6868 --screenshot add-viewer.png
 	@echo "There is no display here, so this is what the window shows: $(CURDIR)/add-viewer.png"
 else
-	@.venv/bin/add-viewer
+	@.venv/bin/add-viewer humans/0
 endif
 
 test: check virtual-screen ## set everything up, check and test

@@ -27,9 +27,15 @@ def main(arguments: list[str] | None = None) -> int:
         problem = f"The folder of {options.screenshot} does not exist. Create it first."
     if problem is not None:
         return _fail(problem)
-    from .assembly import Assembly  # Qt loads here, after the checks
+    from .assembly import Assembly, application  # Qt loads here, after the checks
+    from .views.graphics import graphics_problem
 
-    return Assembly(options.files, options.screenshot, size=options.size, theme=options.theme, pick=options.pick).run()
+    app = application()
+    problem = graphics_problem()
+    if problem is not None:
+        return _fail(problem)
+    chosen = {"size": options.size, "theme": options.theme, "pick": options.pick}
+    return Assembly(options.files, options.screenshot, app=app, **chosen).run()
 
 
 def _parser() -> argparse.ArgumentParser:

@@ -39,6 +39,12 @@ PICTURE_DEADLINE = 120_000
 _TITLES = {"humans": "People", "poses": "Poses", "dogs": "Dogs"}
 
 
+def application() -> QApplication:
+    """The one QApplication."""
+    existing = QApplication.instance()
+    return existing if isinstance(existing, QApplication) else QApplication(["add-viewer"])
+
+
 class Assembly:
     """Models, controllers, tasks and the window."""
 
@@ -47,12 +53,13 @@ class Assembly:
         files: list[str],
         screenshot: Path | None = None,
         *,
+        app: QApplication | None = None,
         size: tuple[int, int] | None = None,
         theme: str | None = None,
         pick: list[int] | None = None,
         store: QSettings | None = None,
     ) -> None:
-        self.app = QApplication.instance() or QApplication(["add-viewer"])
+        self.app = application() if app is None else app
         self._files, self._screenshot, self._picks = files, screenshot, pick or []
         self._failures: list[str] = []
         self.session, self.results, self.display = Session(), Results(), Display()

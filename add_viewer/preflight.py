@@ -7,6 +7,7 @@ import os
 import shutil
 import sys
 from collections.abc import Callable
+from typing import Any
 
 LIBRARIES = {
     "libglib-2.0.so.0": "libglib2.0-0",
@@ -57,6 +58,21 @@ def restart_on_virtual_screen(arguments: list[str]) -> str:
     os.execv(xvfb_run, [xvfb_run, "-a", "-s", SCREEN, sys.executable, "-m", "add_viewer.app", *arguments])
 
 
+def display_answers(load: Callable[[str], object] = ctypes.CDLL) -> bool:
+    """Whether the X server that DISPLAY names lets us in; Qt aborts if it does not. True where X is not used."""
+    if os.environ.get("WAYLAND_DISPLAY") or not os.environ.get("DISPLAY") or not sys.platform.startswith("linux"):
+        return True
+    try:
+        xcb: Any = load("libxcb.so.1")
+    except OSError:
+        return True
+    xcb.xcb_connect.restype = ctypes.c_void_p
+    connection = ctypes.c_void_p(xcb.xcb_connect(None, None))
+    refused = bool(xcb.xcb_connection_has_error(connection))
+    xcb.xcb_disconnect(connection)
+    return not refused
+
+
 def complaint(*, for_picture: bool) -> str | None:
     """Why no window can open, in one line; None if one can."""
     missing = missing_packages()
@@ -67,6 +83,8 @@ def complaint(*, for_picture: bool) -> str | None:
             "There is no display to open a window on (neither DISPLAY nor WAYLAND_DISPLAY is set). "
             "On a desktop start a graphical session; elsewhere try: add-viewer humans/0 --screenshot picture.png"
         )
+    if not display_answers():
+        return f"The display {os.environ['DISPLAY']} does not answer. Is it running, and may you use it?"
     return None
 
 

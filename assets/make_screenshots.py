@@ -1,4 +1,7 @@
-"""Take the README's pictures of the real window: xvfb-run -a -s "-screen 0 2880x1800x24" python assets/make_screenshots.py"""
+"""Take the README's pictures of the real window.
+
+Run on a screen: xvfb-run -a -s "-screen 0 1440x900x24" python assets/make_screenshots.py
+"""
 
 from __future__ import annotations
 
@@ -53,8 +56,7 @@ class Photographer:
 
     def save_window(self, name: str) -> None:
         self.rest()
-        self.window.grab().save(str(FOLDER / f"{name}.png"))
-        _compress(FOLDER / f"{name}.png")
+        _pillow(self.window.grab().toImage()).convert("RGB").save(FOLDER / f"{name}.png", optimize=True)
 
     def picture(self, theta: float) -> QImage:
         self.session.diffuse(theta=radians(theta))
@@ -97,19 +99,13 @@ def _angles(photographer: Photographer) -> None:
     for index, part in enumerate(parts):
         strip.alpha_composite(part, (index * part.width, 0))
     strip = strip.convert("RGB").resize((strip.width // 2, strip.height // 2), Image.Resampling.LANCZOS)
-    strip.save(FOLDER / "angles.png")
-    _compress(FOLDER / "angles.png")
+    strip.save(FOLDER / "angles.png", optimize=True)
 
 
 def _pillow(image: QImage) -> Image.Image:
     image = image.convertToFormat(QImage.Format.Format_RGBA8888)
     size = (image.width(), image.height())
     return Image.frombytes("RGBA", size, bytes(image.constBits()), "raw", "RGBA", image.bytesPerLine())
-
-
-def _compress(path: Path) -> None:
-    """A palette of 256 colours is a third of the size and looks the same."""
-    Image.open(path).convert("RGB").quantize(256, dither=Image.Dither.FLOYDSTEINBERG).save(path, optimize=True)
 
 
 if __name__ == "__main__":

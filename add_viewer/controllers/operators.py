@@ -14,7 +14,10 @@ _Value = TypeVar("_Value")
 
 
 class OperatorStore:
-    """The latest operators and heat flows of the open shapes. Belongs to the thread that computes."""
+    """The latest operators and heat flows of the open shapes. Belongs to the thread that computes.
+
+    Keys hold the shapes themselves: an id could be given again to another shape.
+    """
 
     def __init__(self) -> None:
         self._bases: _Latest[AnisotropicLaplacian] = _Latest(4)
@@ -23,7 +26,7 @@ class OperatorStore:
 
     def laplacian(self, shape: OpenShape, conductivity: Conductivity, alpha: float) -> AnisotropicLaplacian:
         """The operator of `shape`; frames and sparsity are shared between all α."""
-        key = (id(shape), conductivity, alpha)
+        key = (shape, conductivity, alpha)
         found = self._operators.get(key)
         if found is None:
             found = self._operators.put(key, self._base(shape, conductivity).with_alpha(alpha))
@@ -31,14 +34,14 @@ class OperatorStore:
 
     def flow(self, shape: OpenShape, conductivity: Conductivity, alpha: float, purpose: str) -> HeatFlow:
         """A heat flow that keeps its factorisation; each `purpose` has its own, so that none evicts another's."""
-        key = (id(shape), conductivity, alpha, purpose)
+        key = (shape, conductivity, alpha, purpose)
         found = self._flows.get(key)
         if found is None:
             found = self._flows.put(key, HeatFlow(self.laplacian(shape, conductivity, alpha)))
         return found
 
     def _base(self, shape: OpenShape, conductivity: Conductivity) -> AnisotropicLaplacian:
-        key = (id(shape), conductivity)
+        key = (shape, conductivity)
         found = self._bases.get(key)
         if found is None:
             other = next((base for base in self._bases.values() if base.shape is shape.shape), None)

@@ -116,3 +116,13 @@ def test_picking_is_right_at_twice_the_scale(screen, tmp_path: Path):
         check=False,
     )
     assert done.returncode == 0, done.stderr
+
+
+def test_a_display_that_does_not_answer_is_told_before_qt_aborts(monkeypatch, capsys):
+    monkeypatch.setenv("DISPLAY", ":7391")
+    monkeypatch.delenv("WAYLAND_DISPLAY", raising=False)
+    monkeypatch.setattr(preflight, "missing_packages", list)
+    if not sys.platform.startswith("linux"):
+        pytest.skip("X is for Linux")
+    assert main(["humans/0"]) == 2
+    assert "does not answer" in capsys.readouterr().err

@@ -75,9 +75,13 @@ def test_hovering_tells_vertex_and_value(person, qtbot):
     person.open()
     person.click(THIGH)
     kernel = person.wait_for_kernel()
-    qtbot.mouseMove(person.canvas, person.place(SHOULDER) + QPoint(30, 0))
-    qtbot.mouseMove(person.canvas, person.place(THIGH))
-    assert person.window.hover_label.text().startswith(f"Vertex {THIGH} ")
+
+    def hovered() -> bool:  # the screen's own cursor may send events in between
+        qtbot.mouseMove(person.canvas, person.place(THIGH) + QPoint(60, 0))
+        qtbot.mouseMove(person.canvas, person.place(THIGH))
+        return person.window.hover_label.text().startswith(f"Vertex {THIGH} ")
+
+    qtbot.waitUntil(hovered)
     assert f"{kernel.values[THIGH]:.4g}" in person.window.hover_label.text()
 
 
