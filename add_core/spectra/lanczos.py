@@ -17,7 +17,7 @@ from .._check import FloatArray
 from ..errors import ConvergenceError
 
 LOOSE = 3e-8
-"""A full pass that finds overlaps larger than this with earlier vectors came late: from then on every block gets one."""
+"""A full pass that finds overlaps larger than this came late: from then on every block gets one."""
 
 LOST = 1e-6
 """Overlaps larger than this have spoilt the projected matrix already: only a new start helps."""
@@ -157,9 +157,7 @@ class _Basis:
 
     def _watch(self, overlap: float) -> None:
         if overlap > LOST and not self._always:
-            raise ConvergenceError(
-                f"Lanczos vectors overlap by {overlap:.1e}; the shift is too close to an eigenvalue."
-            )
+            raise ConvergenceError(f"Lanczos vectors overlap by {overlap:.1e}: a shift too close to an eigenvalue.")
         self._always |= overlap > LOOSE
 
     def _append(self, new: FloatArray) -> None:

@@ -96,7 +96,7 @@ def test_a_hopeless_matrix_is_refused(ball, monkeypatch):
 
 
 def test_refinement_makes_every_entry_accurate_where_slivers_spread_the_scale():
-    """Entries over twelve orders of magnitude: the plain solve loses digits entry by entry, one refinement returns them."""
+    """Entries over twelve orders of magnitude: the plain solve loses digits here and there, refinement returns them."""
     matrix = standard_form(sphere(3))
     scale = np.where(np.arange(642) % 50 == 0, 1e6, 1.0)
     rows = np.repeat(np.arange(642), np.diff(matrix.indptr))

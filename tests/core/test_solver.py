@@ -14,7 +14,7 @@ from add_core.spectra.solver import PencilSolver
 
 def copies(mesh: TriangleMesh, number: int) -> TriangleMesh:
     n = mesh.vertex_count
-    vertices = np.vstack([mesh.vertices + [7.0 * i, 0, 0] for i in range(number)])
+    vertices = np.vstack([mesh.vertices + np.array([7.0 * i, 0, 0]) for i in range(number)])
     return TriangleMesh(vertices, np.vstack([mesh.faces + n * i for i in range(number)]))
 
 
@@ -110,7 +110,7 @@ def test_vertices_without_mass_take_no_part():
 
 @pytest.mark.parametrize("share", [1e-1, 1e-2, 1e-3])
 def test_slivers_do_not_spoil_the_other_pairs(share):
-    """A sliver makes W stiff without bound; smooth eigenfunctions hardly notice it, and solving with A damps its noise."""
+    """A sliver makes W stiff without bound; smooth eigenfunctions hardly notice."""
     mesh = ellipsoid(1.0, 0.7, 0.5, subdivisions=3)
     healthy = compute_spectrum(AnisotropicLaplacian(with_slivers(mesh, 0.2), alpha=0.0), count=30).eigenvalues
     slivers = compute_spectrum(AnisotropicLaplacian(with_slivers(mesh, share), alpha=0.0), count=30).eigenvalues
