@@ -12,6 +12,7 @@ from .errors import GeometryError, ParameterError
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
 BoolArray = NDArray[np.bool_]
+_LARGEST = 1e60
 _AnyArray = TypeVar("_AnyArray", bound="np.ndarray[Any, Any]")
 
 
@@ -37,6 +38,8 @@ def points_array(name: str, value: ArrayLike, *, least: int = 1) -> FloatArray:
             f"{bad.sum()} of {len(array)} {name} {'are' if bad.sum() > 1 else 'is'} not finite "
             f"(first: {np.argmax(bad)}). Remove or repair them first."
         )
+    if np.abs(array).max() > _LARGEST:
+        raise GeometryError(f"{name} must be smaller than {_LARGEST:g}, or areas overflow. Choose a larger unit.")
     return read_only(array)
 
 
