@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from .._check import FloatArray, count_in, read_only
+from .._check import FloatArray, IntArray, count_in, read_only
 from ..descriptors import spline_reach
 from ..descriptors.splines import splines_at
 from ..geometry import PointCloud, TriangleMesh, normalize
@@ -30,9 +30,12 @@ FLAT = 0.05
 class InputRecipe:
     """How the inputs of a network come from a shape; part of a model, for another recipe would mean another input.
 
-    alphas, angles : the channels, as for `compute_spectra`. eigenpairs : K. splines : M. conductivity : eq. (9) or
-    (10). isotropic : give the network the one channel of α = 0, repeated for each of the others: its isotropic twin,
-        which has the same layers and as many weights but no sense of direction.
+    alphas, angles : the channels, as for `compute_spectra`. eigenpairs : K. splines : M.
+    conductivity : eq. (9) or (10).
+    isotropic : give the network the one channel of α = 0, repeated for each of the others: its isotropic twin, which
+        has the same layers and as many weights but no sense of direction.
+    logarithm : of the ratios; without it inputs are geometry vectors up to one factor a spline, as linear descriptors
+        want them.
     """
 
     alphas: tuple[float, ...] = MULTIPLE
@@ -52,6 +55,18 @@ class InputRecipe:
     def channels(self) -> int:
         """C."""
         return channel_count(self.alphas, self.angles)
+
+    @property
+    def mirror_channels(self) -> IntArray:
+        """(C,): the channel that shows a shape as each channel shows its mirror image.
+
+        A reflection turns θ into −θ, and θ has period π.
+        """
+        order: list[int] = []
+        for alpha in self.alphas:
+            first, angles = len(order), self.angles if alpha > 0 else 1
+            order += [first + (angles - number) % angles for number in range(angles)]
+        return read_only(np.array(order))
 
     def spectra(
         self,

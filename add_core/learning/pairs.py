@@ -71,8 +71,8 @@ class PairSampler:
         near = self._near(one, np.resize(somewhere, self._pairs - 2 * quarter), shared, draw)
         places = np.concatenate([somewhere, mirrored, near])
         return Batch(
-            self._inputs(one, one.vertex_at[places]),
-            self._inputs(two, two.vertex_at[places]),
+            one.inputs(one.vertex_at[places], self._moments),
+            two.inputs(two.vertex_at[places], self._moments),
             read_only(places),
             read_only(_rows_of(self._symmetry[places], places)),
         )
@@ -94,12 +94,6 @@ class PairSampler:
         around = shape.neighbours[shape.vertex_at[places]]
         chosen = shape.places[around[np.arange(len(around)), draw.integers(around.shape[1], size=len(around))]]
         return np.where((chosen >= 0) & shared[chosen], chosen, places)
-
-    def _inputs(self, shape: PreparedShape, vertices: IntArray) -> Inputs:
-        order = np.argsort(vertices)  # the file is read forwards
-        values = np.empty((len(vertices), *shape.values.shape[1:]), dtype=np.float32)
-        values[order] = shape.values[vertices[order]]
-        return (self._moments or shape.moments).standardise(values)
 
 
 def _padded(symmetry: IntArray | None, places: int) -> IntArray:

@@ -40,6 +40,7 @@ class TrainingSettings:
     optimizer : "adadelta" as in the paper (learning rate 1, ρ = 0.95, ε = 1e-6), or "adam" with cosine decay to 0.
     learning_rate : None takes 1 or 0.001. steps : mini-batches in all. pairs : pairs of points in each.
     noise : standard deviation of the noise added to standardised inputs.
+    reflections : learn from the mirror images of the shapes too, where a symmetry is known.
     hard_negatives : of the siamese loss: the nearest wrong point of the batch beside the mirror image and a random one.
     margin, balance : μ and γ of eq. (21). standardisation : see `Model`.
     validate_every, checkpoint_every : steps. patience : stop after so many validations without a better CMC@1; 0 never.
@@ -51,6 +52,7 @@ class TrainingSettings:
     steps: int = 3000
     pairs: int = 192
     noise: float = 0.1
+    reflections: bool = True
     hard_negatives: bool = True
     margin: float = MARGIN
     balance: float = BALANCE
@@ -121,7 +123,11 @@ class _Run:
         _check_classes(self.network, settings, shapes)
         self.pooled = Moments.pooled([shape.moments for shape in shapes])
         moments = self.pooled if settings.standardisation == "set" else None
-        self.sampler = PairSampler(shapes, pairs=settings.pairs, seed=settings.seed, symmetry=symmetry, moments=moments)
+        mirrored = settings.reflections and symmetry is not None
+        images = [shape.reflected(symmetry, recipe.mirror_channels) for shape in shapes] if mirrored else []
+        self.sampler = PairSampler(
+            [*shapes, *images], pairs=settings.pairs, seed=settings.seed, symmetry=symmetry, moments=moments
+        )
         self.validator = Validator(validation, symmetry=symmetry, moments=moments) if validation else None
         self.optimizer = _optimizer(self.network, settings)
         about = [asdict(architecture), asdict(recipe), asdict(settings), _fingerprint([*shapes, *validation], symmetry)]

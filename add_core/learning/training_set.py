@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import os
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from functools import cached_property
 from hashlib import blake2b
 from pathlib import Path
@@ -19,7 +19,7 @@ from .._check import FloatArray, IntArray, index_array, one_of, read_only
 from ..errors import GeometryError, ParameterError
 from ..geometry import PointCloud, TriangleMesh
 from ..io import Collection
-from .inputs import InputRecipe, Moments
+from .inputs import InputRecipe, Inputs, Moments
 
 UNKNOWN = -1
 """Place of a vertex that has no counterpart on other shapes."""
@@ -52,7 +52,7 @@ class PreparedShape:
     """Inputs of one shape, mapped from their file.
 
     values : (n, C, M), not standardised. places : (n,). mass : (n,). positions : (n, 3), only to know who is near whom.
-    moments : of the values over the surface.
+    moments : of the values over the surface. channels : (C,), the order in which the values' channels are to be read.
     """
 
     values: NDArray[np.floating]
@@ -61,6 +61,24 @@ class PreparedShape:
     positions: NDArray[np.float32]
     moments: Moments
     name: str
+    channels: IntArray | None = None
+
+    def reflected(self, symmetry: IntArray, channels: IntArray) -> PreparedShape:
+        """The mirror image of the shape, which costs no spectra: places swap sides, and channels their angles.
+
+        symmetry : (P,), the place that mirrors each place. channels : (C,), see `InputRecipe.mirror_channels`.
+        """
+        known = (self.places >= 0) & (self.places < len(symmetry))
+        places = np.where(known, np.asarray(symmetry)[np.where(known, self.places, 0)], UNKNOWN)
+        return replace(self, places=read_only(places), channels=channels)
+
+    def inputs(self, vertices: IntArray, moments: Moments | None = None) -> Inputs:
+        """Standardised inputs, shape (B, C, M), of vertices (B,), by `moments` or the shape's own."""
+        order = np.argsort(vertices)  # the file is read forwards
+        values = np.empty((len(vertices), *self.values.shape[1:]), dtype=np.float32)
+        values[order] = self.values[vertices[order]]
+        scaled = (moments or self.moments).standardise(values)
+        return scaled if self.channels is None else np.ascontiguousarray(scaled[:, self.channels])
 
     @cached_property
     def vertex_at(self) -> IntArray:

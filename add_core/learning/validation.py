@@ -79,11 +79,9 @@ class Validator:
         return ValidationScores(loss, roc(x, y, truth).auc, matches.headline, matches.at(10), side)
 
     def _outputs(self, network: Network, shape: PreparedShape, places: IntArray) -> Inputs:
-        values = shape.values[shape.vertex_at[places]]
+        values = shape.inputs(shape.vertex_at[places], self._moments)
         with torch.inference_mode():
-            outputs: Inputs = network.logits(
-                torch.from_numpy((self._moments or shape.moments).standardise(values))
-            ).numpy()
+            outputs: Inputs = network.logits(torch.from_numpy(values)).numpy()
         return outputs
 
     def _loss(self, network: Network, a: torch.Tensor, b: torch.Tensor, places: IntArray) -> float:

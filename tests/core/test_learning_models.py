@@ -130,3 +130,13 @@ def test_a_recipe_that_does_not_fit_the_network_is_refused(model):
 def test_shipped_models_open_and_say_how_they_were_trained(name):
     model = load_model(name)
     assert {"settings", "steps", "history"} <= model.card.keys()
+
+
+def test_a_mirror_image_is_its_shape_with_the_angles_exchanged(mesh):
+    """f_θ∘η = f_{−θ}: what lets networks learn from reflections that cost no spectra."""
+    recipe = InputRecipe(alphas=(0.0, 10.0, 30.0), angles=3, eigenpairs=40, splines=12)
+    mirrored = TriangleMesh(mesh.vertices * [-1, 1, 1], mesh.faces[:, ::-1])
+    one, two = (recipe.inputs(recipe.spectra(shape, workers=1, cache=False)) for shape in (mesh, mirrored))
+    assert recipe.mirror_channels.tolist() == [0, 1, 3, 2, 4, 6, 5]
+    assert_allclose(two, one[:, recipe.mirror_channels], atol=1e-3)
+    assert np.abs(two - one).max() > 0.1

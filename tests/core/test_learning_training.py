@@ -82,6 +82,13 @@ def test_mirror_images_are_drawn_and_named():
     assert_array_equal(batch.places[batch.mirror[known]], symmetry[batch.places[known]])
 
 
+def test_a_reflected_shape_swaps_places_and_channels():
+    values = np.arange(24.0).reshape(4, 3, 2)
+    shape = made_up(values, [0, 1, 2, -1]).reflected(np.array([1, 0, 2]), np.array([0, 2, 1]))
+    assert shape.places.tolist() == [1, 0, 2, -1]
+    assert_array_equal(shape.inputs(np.array([2, 0])), values[[2, 0]][:, [0, 2, 1]])
+
+
 def test_vertices_without_a_counterpart_are_never_drawn():
     places = np.where(np.arange(30) % 3, -1, np.arange(30))
     batch = PairSampler([numbered(places), numbered(np.arange(30))], pairs=64, seed=0).batch(0)
