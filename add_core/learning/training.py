@@ -123,8 +123,9 @@ class _Run:
         _check_classes(self.network, settings, shapes)
         self.pooled = Moments.pooled([shape.moments for shape in shapes])
         moments = self.pooled if settings.standardisation == "set" else None
-        mirrored = settings.reflections and symmetry is not None
-        images = [shape.reflected(symmetry, recipe.mirror_channels) for shape in shapes] if mirrored else []
+        images: list[PreparedShape] = []
+        if settings.reflections and symmetry is not None:
+            images = [shape.reflected(symmetry, recipe.mirror_channels) for shape in shapes]
         self.sampler = PairSampler(
             [*shapes, *images], pairs=settings.pairs, seed=settings.seed, symmetry=symmetry, moments=moments
         )
