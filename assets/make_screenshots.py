@@ -77,7 +77,7 @@ def main() -> None:
     photographer.session.pick(THIGH)
     photographer.session.pick_mirror(THIGH)
     photographer.session.diffuse(theta=radians(45))
-    photographer.save_window("left-and-right")
+    photographer.save_window("mirror")
     photographer.assembly.display.set("arrows", True)
     photographer.assembly.display.set("theme", "dark")
     photographer.wait(lambda: photographer.assembly.results.directions is not None)

@@ -11,7 +11,7 @@ KERNEL_SCALES = ("linear", "log")
 UP_AXES = ("auto", "+y", "+z")
 
 _CHOICES = {"theme": THEMES, "kernel_scale": KERNEL_SCALES, "up_axis": UP_AXES}
-_SWITCHES = {"arrows": False, "wireframe": False, "colour_bar": True}
+_SWITCHES = {"arrows": False, "wireframe": False, "colour_bar": True, "relative_curves": True}
 
 
 class Display:

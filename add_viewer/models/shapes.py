@@ -49,5 +49,5 @@ class OpenShape:
     @property
     def scale_sentence(self) -> str:
         """What 1 means where lengths are shown."""
-        own = f" = {self.diameter:.3g} {self.unit}" if self.unit else ""
-        return f"Lengths in geodesic diameters (1 ⌀{own})"
+        unit = self.unit or "of the file's units"
+        return f"Lengths in geodesic diameters: 1 ⌀ = {self.diameter:.3g} {unit}"

@@ -17,8 +17,10 @@ from matplotlib.figure import Figure
 from PySide6.QtCore import QEvent, QSize, Qt, QTimer
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QStackedLayout, QVBoxLayout, QWidget
 
+from ..models.display import Display
 from ..models.results import Results
 from ..models.session import Session
+from .captions import describe
 from .curve_plots import CurvePlots, CurveScene
 from .theme import GRID, LIGHT, Theme
 
@@ -26,13 +28,15 @@ _PATIENCE = 100
 """Milliseconds that the crosshair waits for the kernel's picture."""
 
 
+LEGEND = "Thick: the shown t.  Thin: t/10, dashed: 10 t.  Right: thick AHKS at θ, thin HKS (α = 0) at equal t·λ₁."
+
+
 class CurvePanel(QWidget):
     """AHKS over θ (Cartesian and polar) and over t, with the HKS beside it; drag in a plot to turn θ or move t."""
 
-    def __init__(self, session: Session, results: Results, parent: QWidget | None = None) -> None:
+    def __init__(self, session: Session, results: Results, display: Display, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self._session, self._results, self._theme = session, results, LIGHT
-        self.relative = True
+        self._session, self._results, self._display, self._theme = session, results, display, LIGHT
         self.figure = Figure()
         self.canvas = _BlittedCanvas(self.figure)
         self.plots = CurvePlots(self.figure)
@@ -71,20 +75,20 @@ class CurvePanel(QWidget):
         self._results.curves_changed.connect(self._show_curves)
         self._session.diffusion_changed.connect(self._move)
         self._results.kernel_changed.connect(self._move_with_kernel)
+        self._display.changed.connect(lambda name: self._show_curves() if name == "relative_curves" else None)
 
     # -- models to view -----------------------------------------------------------------------------------------------
 
     def scene(self, theme: Theme | None = None) -> CurveScene:
         """What is shown now, for another theme if wanted."""
         diffusion = self._session.state.diffusion
-        return CurveScene(self._results.curves, diffusion.theta, diffusion.reach, self.relative, theme or self._theme)
+        relative = self._display["relative_curves"]
+        return CurveScene(self._results.curves, diffusion.theta, diffusion.reach, relative, theme or self._theme)
 
     def _show_curves(self) -> None:
         curves = self._results.curves
         self._stack.setCurrentIndex(1 if curves else 0)
-        self._legend.setText(
-            "Thick: the shown t.  Thin: t/10, dashed 10 t.  Right: thick AHKS at θ, thin HKS (α = 0) at equal t·λ₁."
-        )
+        self._legend.setText(LEGEND)
         if curves and not self._renewal.isActive():
             self._renewal.start()
 
@@ -116,11 +120,6 @@ class CurvePanel(QWidget):
             elif not self._renewal.isActive():
                 self._renewal.start()
 
-    def set_relative(self, relative: bool) -> None:
-        """Divide each curve by its mean over θ, or show it as it is."""
-        self.relative = relative
-        self._show_curves()
-
     def show_theme(self, theme: Theme) -> None:
         """Draw the plots in the theme's colours."""
         self._theme = theme
@@ -139,19 +138,30 @@ class CurvePanel(QWidget):
             self._session.diffuse(reach=event.xdata * self._results.curves[0].weyl_eigenvalue)
 
     def save(self, path: Path, theme: Theme) -> None:
-        """Write the plots to a PNG, SVG or PDF, on white if `theme` is light."""
-        width, height = (
-            max(size, 480 if index == 0 else 200) for index, size in enumerate(self.canvas.get_width_height())
-        )
+        """Write the plots to a PNG, SVG or PDF, with a caption that says what they show."""
+        shown = self.canvas.get_width_height()
+        width, height = max(shown[0], 640), max(shown[1], 200) + 40
         figure = Figure(figsize=(width / 100, height / 100), dpi=100)
         plots = CurvePlots(figure)
-        plots.lay_out(width * 0.72, height * 0.72)
+        plots.lay_out(0.72 * width, 0.72 * height, below=32.0)
         scene = self.scene(theme)
         plots.draw_static(scene)
         for axes, artist in plots.moving_artists(scene):
             artist.set_animated(False)
             axes.add_artist(artist)
+        for line, text in enumerate((LEGEND, self._caption())):
+            figure.text(0.02, (8 + 12 * line) / (0.72 * height), text, fontsize=7, color=theme.muted)
+        figure.set_facecolor("white")
         figure.savefig(path, dpi=300, format=path.suffix.lstrip(".").lower())
+
+    def _caption(self) -> str:
+        state, curves = self._session.state, self._results.curves
+        name = "" if state.active is None else state.active.name
+        points = ", ".join(str(each.pick.vertex) + (" (mirror)" if each.pick.is_mirror else "") for each in curves)
+        vertices = "vertices" if len(curves) > 1 else "vertex"
+        return (
+            f"{name}, {vertices} {points}. {describe(state.diffusion, curves[0].weyl_eigenvalue)}" if curves else name
+        )
 
     def sizeHint(self) -> QSize:
         return QSize(720, 240)

@@ -45,9 +45,9 @@ class CurvePlots:
         self.time_axes = figure.add_axes((0.7, 0.2, 0.2, 0.6))
         self._limits = (0.0, 1.0)
 
-    def lay_out(self, width: float, height: float) -> None:
-        """Place the plots in a figure of this size in points: labels need room that does not shrink with it."""
-        left, right, bottom, top, gap = 50.0, 14.0, 36.0, 24.0, 58.0
+    def lay_out(self, width: float, height: float, *, below: float = 0.0) -> None:
+        """Place the plots in a figure of this size in points, `below` of them left free at the bottom."""
+        left, right, bottom, top, gap = 50.0, 14.0, 36.0 + below, 24.0, 58.0
         tall = height - bottom - top
         polar = min(tall + 8, 0.26 * width)
         wide = 0.5 * (width - left - right - polar - 2 * gap + 16)

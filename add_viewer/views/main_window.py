@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from functools import partial
 from pathlib import Path
+from typing import Any
 
 from PySide6.QtCore import QPoint, Qt, Signal
 from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent
@@ -26,6 +27,7 @@ from ..models.display import Display
 from ..models.results import Notice, Results
 from ..models.session import Session
 from .curve_panel import CurvePanel
+from .dock_title import DockTitle
 from .icons import icon
 from .menus import Menus
 from .message_bar import MessageBar
@@ -60,8 +62,9 @@ class MainWindow(QMainWindow):
         self.start = StartPage(galleries)
         self.message = MessageBar()
         self.parameters = ParameterPanel(session, results)
-        self.curves = CurvePanel(session, results)
+        self.curves = CurvePanel(session, results, display)
         self._hidden_docks: list[QDockWidget] | None = None
+        self._titles: list[DockTitle] = []
         self._build()
         self._connect()
         self._show_theme()
@@ -100,6 +103,9 @@ class MainWindow(QMainWindow):
         dock = QDockWidget(title, self)
         dock.setObjectName(title)
         dock.setWidget(widget)
+        title_bar = DockTitle(dock)
+        dock.setTitleBarWidget(title_bar)
+        self._titles.append(title_bar)
         self.addDockWidget(area, dock)
         self.menus.docks.addAction(dock.toggleViewAction())
         return dock
@@ -198,7 +204,16 @@ class MainWindow(QMainWindow):
         theme = theme_of(self.display["theme"])
         apply_theme(theme)
         self.setWindowIcon(icon("mdi6.blur-radial", theme.accent))
-        for part in (self.menus, self.view, self.start, self.message, self.parameters, self.curves):
+        parts: list[Any] = [
+            self.menus,
+            self.view,
+            self.start,
+            self.message,
+            self.parameters,
+            self.curves,
+            *self._titles,
+        ]
+        for part in parts:
             part.show_theme(theme)
 
     def _show_recent(self) -> None:

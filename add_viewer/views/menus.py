@@ -65,6 +65,7 @@ SWITCHES = (
     Entry("arrows", "&Directions on the skin", "D", "mdi6.arrow-top-right", "Where heat runs, turned by θ"),
     Entry("wireframe", "&Wireframe", "W", "mdi6.grid", "The triangles' edges"),
     Entry("colour_bar", "&Colour bar", "B", "mdi6.gradient-vertical"),
+    Entry("relative_curves", "Curves ÷ their &mean over θ", "N", "mdi6.chart-bell-curve", "Or as they are"),
 )
 CHOICES = {
     "theme": ("&Theme", {"system": "As the &system", "light": "&Light", "dark": "&Dark"}),

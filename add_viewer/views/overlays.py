@@ -82,11 +82,16 @@ class CornerLabel(Overlay):
     """Which shape this is, and how many vertices it has."""
 
     def __init__(self, parent: QWidget) -> None:
-        super().__init__(parent, QSize(480, 40))
-        self._name = self._detail = ""
+        super().__init__(parent, QSize(400, 60))
+        self._name = self._detail = self._parameters = ""
 
     def show_text(self, name: str, detail: str) -> None:
         self._name, self._detail = name, detail
+        self.update()
+
+    def show_parameters(self, text: str) -> None:
+        """What the shown field was computed for."""
+        self._parameters = text
         self.update()
 
     def draw(self, painter: QPainter) -> None:
@@ -95,6 +100,7 @@ class CornerLabel(Overlay):
         painter.drawText(QRectF(0, 0, self.width(), 18), Qt.AlignmentFlag.AlignLeft, name)
         self._pen(painter, "muted", size=0.95)
         painter.drawText(QRectF(0, 19, self.width(), 18), Qt.AlignmentFlag.AlignLeft, self._detail)
+        painter.drawText(QRectF(0, 36, self.width(), 18), Qt.AlignmentFlag.AlignLeft, self._parameters)
 
 
 class AxesTriad(Overlay):

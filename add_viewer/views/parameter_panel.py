@@ -137,7 +137,7 @@ class ParameterPanel(QWidget):
                 self.shape.addItem(each.name, each.key)
             self.shape.setCurrentIndex(self.shape.findData(state.active_key))
         self.setEnabled(state.active is not None)
-        note = "" if state.active is None else state.active.scale_sentence + ": α is in ⌀, t in ⌀²."
+        note = "" if state.active is None else state.active.scale_sentence + ". α is in ⌀, t in ⌀²."
         self.scale_note.setText(note)
 
     def _show_diffusion(self) -> None:

@@ -12,6 +12,7 @@ from ..models.results import Results
 from ..models.session import Session
 from ..models.shapes import OpenShape
 from .canvas import Canvas
+from .captions import describe
 from .overlays import AxesTriad, ColourBar, CornerLabel, Hint, Overlay
 from .theme import GRID, Theme
 
@@ -94,6 +95,9 @@ class ShapeView(QWidget):
         shape = self._session.state.active
         shown = field if field is not None and shape is not None and field.shape == shape.key else None
         self.colour_bar.setVisible(shown is not None and self._display["colour_bar"])
+        self.label.show_parameters(
+            "" if shown is None else describe(shown.diffusion, shown.diffusion.reach / shown.time)
+        )
         if shown is None:
             self.canvas.show_field(None)
             return

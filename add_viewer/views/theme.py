@@ -113,14 +113,19 @@ def _palette(theme: Theme) -> QPalette:
 def _style_sheet(theme: Theme) -> str:
     return f"""
 QMainWindow::separator {{ background: {theme.line}; width: 1px; height: 1px; }}
-QDockWidget {{ font-weight: 600; }}
-QDockWidget::title {{ background: {theme.window}; padding: 7px 12px; border-bottom: 1px solid {theme.line}; }}
+DockTitle {{ border-bottom: 1px solid {theme.line}; }}
 QMenuBar {{ background: {theme.window}; padding: 2px 4px; border-bottom: 1px solid {theme.line}; }}
 QMenuBar::item {{ padding: 4px 8px; border-radius: 4px; background: transparent; }}
 QMenuBar::item:selected, QMenu::item:selected {{ background: {theme.accent}; color: {theme.on_accent}; }}
 QMenu {{ background: {theme.panel}; border: 1px solid {theme.line}; padding: 4px; }}
 QMenu::item {{ padding: 5px 28px 5px 24px; border-radius: 4px; }}
 QMenu::item:disabled {{ color: {theme.muted}; }}
+QMenu::icon:checked {{ border: 1px solid {theme.accent}; border-radius: 3px; padding: 2px; }}
+QDialogButtonBox {{ dialogbuttonbox-buttons-have-icons: 0; }}
+QCheckBox {{ spacing: 8px; }}
+QCheckBox::indicator {{ width: 12px; height: 12px; border: 1px solid {theme.muted}; border-radius: 3px;
+    background: {theme.field}; }}
+QCheckBox::indicator:checked {{ background: {theme.accent}; border-color: {theme.accent}; }}
 QMenu::separator {{ height: 1px; background: {theme.line}; margin: 4px 8px; }}
 QStatusBar {{ background: {theme.window}; border-top: 1px solid {theme.line}; }}
 QStatusBar QLabel {{ color: {theme.muted}; padding: 0 8px; }}

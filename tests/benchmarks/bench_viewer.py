@@ -49,24 +49,28 @@ class Bench:
         end = time.perf_counter() + PATIENCE
         while not condition():
             self.assembly.app.processEvents()
-            time.sleep(0.0002)
+            time.sleep(0.001)
             if time.perf_counter() > end:
                 raise TimeoutError("the window did not get there")
 
     def wait_for_paint(self, before: int) -> None:
         self.wait(lambda: self.paints > before)
 
-    def latency(self, change: Callable[[int], object], repeats: int = 21) -> float:
-        """Median milliseconds from a change to the picture that shows its kernel."""
-        times = []
+    def latency(self, change: Callable[[int], object], repeats: int = 21) -> tuple[float, float]:
+        """Median milliseconds from a change to the picture that shows its kernel: on the clock, and of CPU.
+
+        Where other programs share the machine, the clock says more about them.
+        """
+        times, work = [], []
         for index in range(repeats):
             kernel = self.results.kernel
-            start = time.perf_counter()
+            start, used = time.perf_counter(), _cpu()
             change(index)
             self.wait(lambda kernel=kernel: self.results.kernel is not kernel)
             self.wait_for_paint(self.paints_before_kernel)
             times.append(1000 * (time.perf_counter() - start))
-        return statistics.median(times)
+            work.append(1000 * (_cpu() - used))
+        return statistics.median(times), statistics.median(work)
 
     def idle_share(self, seconds: float = 3.0) -> float:
         """CPU time of this process per second while nobody does anything."""
@@ -101,7 +105,8 @@ def main() -> None:
         "another source to picture": lambda i: session.pick(100 * i),
     }
     for name, change in rows.items():
-        print(f"{name:36s} {bench.latency(change):8.0f} ms   (aim 120)")
+        clock, work = bench.latency(change)
+        print(f"{name:36s} {clock:8.0f} ms   (aim 120)   {work:5.0f} ms of CPU")
     bench.wait(lambda: all(c.is_complete for c in bench.results.curves))
     print(f"idle CPU                             {100 * bench.idle_share():8.1f} %    (aim 3)")
     bench.assembly.stop()
