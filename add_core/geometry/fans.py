@@ -14,6 +14,8 @@ from .neighbours import DistinctPoints
 from .tangent_planes import TangentPlanes
 
 _log = logging.getLogger(__name__)
+FLAT_ENOUGH = 0.8
+"""Cosine between a triangle and the tangent planes of its corners above which it surely lies on the surface."""
 _TIE = 1e-7  # share of the spacing squared by which points on one circle are told apart
 
 
@@ -50,7 +52,8 @@ def build_fans(points: FloatArray, normals: FloatArray, planes: TangentPlanes, d
         at_hand = np.zeros_like(planes.near)
         at_hand[lonely] = planes.near[lonely]
         stars = np.concatenate([stars, _stars(planes, at_hand)])
-    triangles, weights = _shared_by_duplicates(stars, _weights(stars, len(planes.near)), distinct)
+    weights = _weights(stars, points[distinct.first], normals[distinct.first])
+    triangles, weights = _shared_by_duplicates(stars, weights, distinct)
     isolated = np.setdiff1d(np.arange(len(distinct.place)), triangles)
     if len(isolated):
         _log.warning("%d of %d points touch no triangle (first: %d).", len(isolated), len(distinct.place), isolated[0])
@@ -75,17 +78,23 @@ def _stars(planes: TangentPlanes, usable: BoolArray) -> IntArray:
     )
 
 
-def _weights(stars: IntArray, count: int) -> FloatArray:
+def _weights(stars: IntArray, points: FloatArray, normals: FloatArray) -> FloatArray:
     """(t,): one over how many fans cover the same side of an edge of the triangle, the most crowded of its three
     edges.
 
     1/3 where the fans agree, 1/4 where four points on a circle all choose the diagonals to themselves, 1/2 where
-    none does. What a single fan claims counts a third.
+    none does. What fewer than three fans claim counts no more than a third where it does not lie flat on the
+    surface: there it may bridge a gap.
     """
     sides = stars[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 3, 2)
-    _, edge, fans = np.unique(sides[:, :, 0] * count + sides[:, :, 1], return_inverse=True, return_counts=True)
+    keys = sides[:, :, 0] * len(points) + sides[:, :, 1]
+    _, edge, fans = np.unique(keys, return_inverse=True, return_counts=True)
     cover = fans[edge.reshape(-1, 3)].max(axis=1)
-    return np.asarray(1.0 / np.where(cover == 1, 3, cover))
+    a, b, c = (points[stars[:, i]] for i in range(3))
+    upright = np.cross(b - a, c - a)
+    upright /= np.linalg.norm(upright, axis=1, keepdims=True)
+    flat = np.einsum("ti,tci->tc", upright, normals[stars]).min(axis=1) > FLAT_ENOUGH
+    return np.asarray(1.0 / np.where(flat & (cover > 1), cover, np.maximum(cover, 3)))
 
 
 def _shared_by_duplicates(

@@ -15,7 +15,7 @@ FAN_NEIGHBOURS = 20
 """Neighbours among which a point's fan is sought: three rings of an even sample."""
 FARTHEST = 2.0
 """How far away a neighbour may be, as a multiple of how far its own neighbours reach."""
-STEEPEST = np.sin(np.radians(60.0))
+STEEPEST = 0.8
 """Sine between chord and tangent plane above which a neighbour lies across a limb or a gap, not along the surface."""
 LEAST_AGREEMENT = 0.3
 """Least reflected cosine between the normals of neighbours on one surface."""
