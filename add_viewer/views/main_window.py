@@ -131,7 +131,8 @@ class MainWindow(QMainWindow):
         QApplication.styleHints().colorSchemeChanged.connect(self._show_theme)
         self.view.hovered.connect(self.hover_label.setText)
         self.view.menu_requested.connect(self._show_context_menu)
-        self.start.chosen.connect(self.open_requested)
+        self.start.chosen.connect(self._open_chosen)
+        self.start.left.connect(self._show_active)
         looks = ("front", "back", "left", "right", "top")
         for name in looks:
             self.menus.on(name, partial(self.view.canvas.look, name))
@@ -152,6 +153,7 @@ class MainWindow(QMainWindow):
 
     def _show_active(self) -> None:
         shape = self.session.state.active
+        self.start.show_way_back(None)
         self.pages.setCurrentWidget(self.start if shape is None else self.view)
         self.setWindowTitle(TITLE if shape is None else f"{shape.name} — {TITLE}")
         self.message.hide()
@@ -175,6 +177,8 @@ class MainWindow(QMainWindow):
 
     def show_start(self) -> None:
         """Offer shapes to open; the session stays as it is."""
+        shape = self.session.state.active
+        self.start.show_way_back(None if shape is None else shape.name)
         self.pages.setCurrentWidget(self.start)
         self._show_docks(False)
 
@@ -248,6 +252,13 @@ class MainWindow(QMainWindow):
         plain = [pick for pick in self.session.state.active_picks if not pick.is_mirror]
         if plain:
             self.session.pick_mirror(plain[-1].vertex)
+
+    def _open_chosen(self, reference: str) -> None:
+        shape = self.session.state.active
+        if shape is not None and shape.key == reference:
+            self._show_active()  # it is open already
+        else:
+            self.open_requested.emit(reference)
 
     def _go_to(self) -> None:
         self.parameter_dock.show()

@@ -41,11 +41,12 @@ class Gallery:
 class StartPage(QWidget):
     """The shipped shapes as pictures, recent files, and a place to drop one.
 
-    chosen : the reference of a shape to open. browse : the person wants to look for a file.
+    chosen : the reference of a shape to open. browse : the person looks for a file. left : back to the open shape.
     """
 
     chosen = Signal(str)
     browse = Signal()
+    left = Signal()
 
     def __init__(self, galleries: tuple[Gallery, ...], parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -53,7 +54,8 @@ class StartPage(QWidget):
         self.list = QListWidget()
         self.buttons: list[QPushButton] = []
         self.recent: list[QToolButton] = []
-        self.open_button = QPushButton("Open file…")
+        self.open_button, self.back_button = QPushButton("Open file…"), QPushButton()
+        self.back_button.clicked.connect(self.left)
         self._recent_box = QVBoxLayout()
         self._lay_out()
         self.show_gallery(0)
@@ -84,7 +86,7 @@ class StartPage(QWidget):
         self._recent_title.setProperty("role", "heading")
         column = QVBoxLayout()
         column.setSpacing(2 * GRID)
-        for widget in (title, text, self.open_button, self._drop, self._recent_title):
+        for widget in (self.back_button, title, text, self.open_button, self._drop, self._recent_title):
             widget.setFixedWidth(31 * GRID)
             column.addWidget(widget)
         self._recent_box.setSpacing(0)
@@ -138,6 +140,11 @@ class StartPage(QWidget):
             item.setTextAlignment(Qt.AlignmentFlag.AlignHCenter | Qt.AlignmentFlag.AlignTop)
             self.list.addItem(item)
 
+    def show_way_back(self, name: str | None) -> None:
+        """Offer to go back to the open shape `name`, if there is one."""
+        self.back_button.setVisible(name is not None)
+        self.back_button.setText(f"Back to {name}")
+
     def show_recent(self, references: list[str]) -> None:
         """List what was opened lately."""
         for button in self.recent:
@@ -161,6 +168,7 @@ class StartPage(QWidget):
     def show_theme(self, theme: Theme) -> None:
         """Icons and the drop target in the theme's colours."""
         self.open_button.setIcon(icon("mdi6.folder-open-outline", theme.on_accent))
+        self.back_button.setIcon(icon("mdi6.arrow-left", theme.text))
         self._drop.setStyleSheet(
             f"border: 1px dashed {theme.muted}; border-radius: 8px; padding: 16px; color: {theme.muted};"
         )

@@ -322,6 +322,10 @@ def test_panels_hide_on_the_start_page_and_come_back_as_they_were(person):
     person.window.curve_dock.hide()
     person.window.show_start()
     assert person.window.parameter_dock.isHidden()
+    person.window.start.back_button.click()
+    assert person.window.pages.currentWidget() is person.window.view
+    assert person.window.parameter_dock.isVisible()
+    person.window.show_start()
     person.open("humans/1")
     assert person.session.state.active_key == "humans/1"
     assert person.window.parameter_dock.isVisible()
