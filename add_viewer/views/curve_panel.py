@@ -89,7 +89,9 @@ class CurvePanel(QWidget):
         curves = self._results.curves
         self._stack.setCurrentIndex(1 if curves else 0)
         self._legend.setText(LEGEND)
-        if curves and not self._renewal.isActive():
+        if not self.scene().shown:
+            self._draw_moving()  # nothing to fit axes to yet, and a kernel is waited for
+        elif not self._renewal.isActive():
             self._renewal.start()
 
     def _move(self) -> None:

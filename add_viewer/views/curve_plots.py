@@ -113,7 +113,7 @@ class CurvePlots:
         low, high = _theta_limits(scene)
         drawn = self._limits[1] - self._limits[0]
         inside = low >= self._limits[0] - 1e-9 and high <= self._limits[1] + 1e-9
-        return not scene.relative or (inside and high - low >= 0.5 * drawn)
+        return not scene.relative or not scene.shown or (inside and high - low >= 0.5 * drawn)
 
     # -- what moves ---------------------------------------------------------------------------------------------------
 
