@@ -18,7 +18,7 @@ from add_core.geometry.shapes import ellipsoid
 from add_core.learning import InputRecipe, LearningTask, TrainingSettings, TrainingShape, load_model, train
 from add_core.learning.architectures import Architecture
 from add_core.learning.inputs import Moments
-from add_core.learning.pairs import PairSampler
+from add_core.learning.pairs import Batch, PairSampler
 from add_core.learning.training import CHECKPOINT, MODEL, fit, learning_rate, negative_pairs
 from add_core.learning.training_set import PreparedShape, prepare
 
@@ -113,6 +113,14 @@ def test_negatives_are_mirrored_random_and_the_hardest_and_never_the_place_itsel
     assert {(r, batch.mirror[r]) for r in range(8)} <= set(zip(row.tolist(), column.tolist(), strict=True))
     hardest = distances.masked_fill(torch.from_numpy(batch.places[:, None] == batch.places), 9).argmin(1).numpy()
     assert_array_equal(column[-16:], hardest)
+
+
+def test_a_place_drawn_twice_is_no_negative_of_itself():
+    values = np.zeros((4, 1, 1), np.float32)
+    batch = Batch(values, values, places=np.array([7, 8, 7, 7]), mirror=np.full(4, -1))
+    row, column = negative_pairs(batch, torch.zeros(4, 4), hard=False)
+    assert len(row) > 0
+    assert (batch.places[row.numpy()] != batch.places[column.numpy()]).all()
 
 
 def test_the_inputs_of_a_shape_are_computed_once(tmp_path):
