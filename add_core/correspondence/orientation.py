@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.sparse import csr_array
 
-from .._check import FloatArray, index_array
+from .._check import FloatArray, IntArray, index_array
 from ..geometry import TriangleMesh
 from ..spectra import Spectrum
 
@@ -57,9 +57,14 @@ def preserved_orientation(mesh_2: TriangleMesh, mesh_1: TriangleMesh, match_21: 
     match_21 : (n2,), the vertex of mesh_1 for each of mesh_2. Faces that collapse say nothing and are left out.
     """
     match = index_array("match_21", match_21, mesh_1.vertex_count, count=mesh_2.vertex_count)
-    corners = match[mesh_2.faces]
-    places, normals = mesh_1.vertices[corners], mesh_1.vertex_normals[corners].sum(axis=1)
+    return orientation_kept(mesh_1, mesh_2.faces, match[mesh_2.faces], mesh_2.face_areas)
+
+
+def orientation_kept(mesh: TriangleMesh, faces: IntArray, images: IntArray, weights: FloatArray | None = None) -> float:
+    """Share of `faces` (m, 3) whose images, (m, 3) vertices of `mesh`, face outward there, by `weights` (m,)."""
+    places, normals = mesh.vertices[images], mesh.vertex_normals[images].sum(axis=1)
     laid = np.cross(places[:, 1] - places[:, 0], places[:, 2] - places[:, 0])
     facing = (laid * normals).sum(axis=1)
-    weight = mesh_2.face_areas * (np.abs(facing) > 1e-12 * np.linalg.norm(laid, axis=1)) * (facing != 0)
+    clear = np.abs(facing) > 1e-12 * np.linalg.norm(laid, axis=1)
+    weight = clear * (np.ones(len(faces)) if weights is None else weights)
     return float((weight * (facing > 0)).sum() / weight.sum()) if weight.sum() > 0 else 0.5

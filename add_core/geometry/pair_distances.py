@@ -52,6 +52,11 @@ class PairDistances:
             lengths[rows] = self._through_landmarks(one[rows], two[rows])
         return lengths
 
+    def rows(self, sources: ArrayLike) -> FloatArray:
+        """(s, n): distances from each source (s,) to every vertex, all measured."""
+        chosen = index_array("sources", sources, self.shape.vertex_count)
+        return np.asarray(dijkstra(self._graph, directed=False, indices=chosen)).reshape(len(chosen), -1)
+
     @cached_property
     def _graph(self) -> csr_array:
         if isinstance(self.shape, PointCloud):
