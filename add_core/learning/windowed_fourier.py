@@ -24,7 +24,7 @@ WINDOW_SPLINES = 12
 
 @dataclass(frozen=True, eq=False)
 class FourierShape:
-    """What the network sees of a shape: vectors (n, M), eigenfunctions φ (n, K), mass (n,), splines (K, W) at their λ."""
+    """What the network sees of a shape: vectors (n, M), eigenfunctions (n, K), mass (n,), splines (K, W) at their λ."""
 
     vectors: Tensor
     functions: Tensor
