@@ -66,7 +66,7 @@ class PointCloud:
     def tangent_planes(self) -> TangentPlanes:
         """Tangent planes and neighbours of the `distinct` points."""
         first = self.distinct.first
-        return TangentPlanes.of(self.points[first], self.outward_normals[first])
+        return TangentPlanes.of(self.points[first], self.outward_normals[first], estimated=self.normals is None)
 
     @cached_property
     def fans(self) -> Fans:

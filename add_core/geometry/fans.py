@@ -16,6 +16,7 @@ from .tangent_planes import TangentPlanes
 _log = logging.getLogger(__name__)
 FLAT_ENOUGH = 0.8
 """Cosine between a triangle and the tangent planes of its corners above which it surely lies on the surface."""
+_GAP = 0.05  # radians of a star that do not count as open
 _TIE = 1e-7  # share of the spacing squared by which points on one circle are told apart
 
 
@@ -42,16 +43,11 @@ class Fans:
 def build_fans(points: FloatArray, normals: FloatArray, planes: TangentPlanes, distinct: DistinctPoints) -> Fans:
     """Fans of a cloud from the tangent planes of its distinct points.
 
-    Neighbours across a limb or a gap are left out of a fan, unless a point would be left without any triangle. A
-    point on the boundary has an open fan. Points in one place share the fans around it: they take their turns as
-    corners.
+    Neighbours that seem to lie across a limb or a gap are left out of a fan at first, and let in by a more lenient
+    test if the fan stays open without them, or by none if the point would touch no triangle at all. A point on the
+    boundary has an open fan. Points in one place share the fans around it: they take their turns as corners.
     """
-    stars = _stars(planes, planes.on_surface)
-    lonely = np.setdiff1d(np.arange(len(planes.near)), stars)
-    if len(lonely):
-        at_hand = np.zeros_like(planes.near)
-        at_hand[lonely] = planes.near[lonely]
-        stars = np.concatenate([stars, _stars(planes, at_hand)])
+    stars = _stars(planes)
     weights = _weights(stars, points[distinct.first], normals[distinct.first])
     triangles, weights = _shared_by_duplicates(stars, weights, distinct)
     isolated = np.setdiff1d(np.arange(len(distinct.place)), triangles)
@@ -62,7 +58,7 @@ def build_fans(points: FloatArray, normals: FloatArray, planes: TangentPlanes, d
     return Fans(*map(read_only, (triangles, weights, edges, areas, isolated)))
 
 
-def _stars(planes: TangentPlanes, usable: BoolArray) -> IntArray:
+def _stars(planes: TangentPlanes) -> IntArray:
     """(t, 3): centre and two neighbours, as numbers of distinct points."""
     n, k = planes.near.shape
     if k < 2:
@@ -71,11 +67,33 @@ def _stars(planes: TangentPlanes, usable: BoolArray) -> IntArray:
     # take.
     spacing = float(np.median(planes.nearest.distances[:, :1]))
     weight = _TIE * spacing**2 * np.random.default_rng(0).random(size=(n,))
-    stars = delaunay_stars(planes.plane, usable, weight[planes.nearest.indices] - weight[:, None])
-    centre = stars[:, 0]
-    return np.stack(
-        [centre, planes.nearest.indices[centre, stars[:, 1]], planes.nearest.indices[centre, stars[:, 2]]], axis=1
-    )
+    ties = weight[planes.nearest.indices] - weight[:, None]
+    stars = delaunay_stars(planes.plane, planes.on_surface, ties)
+    stars = _widened(stars, planes, ties, planes.perhaps, _covered_angles(stars, planes) < 2 * np.pi - _GAP)
+    lonely = np.bincount(planes.nearest.indices[stars[:, :1], stars[:, 1:]].ravel(), minlength=n) == 0
+    lonely[stars[:, 0]] = False
+    stars = _widened(stars, planes, ties, planes.near, lonely)
+    return np.column_stack([stars[:, 0], planes.nearest.indices[stars[:, :1], stars[:, 1:]]])
+
+
+def _widened(
+    stars: IntArray, planes: TangentPlanes, ties: FloatArray, usable: BoolArray, candidates: BoolArray
+) -> IntArray:
+    """The stars, those of `candidates` replaced by stars among all `usable` neighbours where these leave less
+    open."""
+    rows = np.flatnonzero(candidates)
+    wider = delaunay_stars(planes.plane[rows], usable[rows], ties[rows])
+    wider[:, 0] = rows[wider[:, 0]]
+    better = _covered_angles(wider, planes) > _covered_angles(stars, planes) + _GAP
+    return np.concatenate([stars[~better[stars[:, 0]]], wider[better[wider[:, 0]]]])
+
+
+def _covered_angles(stars: IntArray, planes: TangentPlanes) -> FloatArray:
+    """(n,): radians around each point that its star covers."""
+    row, first, second = stars.T
+    a, b = planes.plane[row, first], planes.plane[row, second]
+    angle = np.arctan2(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0], np.einsum("ti,ti->t", a, b))
+    return np.bincount(row, angle, len(planes.near)).astype(np.float64)
 
 
 def _weights(stars: IntArray, points: FloatArray, normals: FloatArray) -> FloatArray:

@@ -15,10 +15,25 @@ FAN_NEIGHBOURS = 20
 """Neighbours among which a point's fan is sought: three rings of an even sample."""
 FARTHEST = 2.0
 """How far away a neighbour may be, as a multiple of how far its own neighbours reach."""
-STEEPEST = 0.8
-"""Sine between chord and tangent plane above which a neighbour lies across a limb or a gap, not along the surface."""
-LEAST_AGREEMENT = 0.3
-"""Least reflected cosine between the normals of neighbours on one surface."""
+
+
+@dataclass(frozen=True)
+class SurfaceTest:
+    """When two neighbours count as lying on one piece of surface.
+
+    steepest : sine between their chord and either tangent plane above which one lies across a limb or a gap from
+        the other.
+    least_agreement : least reflected cosine between their normals.
+    """
+
+    steepest: float
+    least_agreement: float
+
+
+STRICT, LENIENT = SurfaceTest(0.85, 0.3), SurfaceTest(0.95, 0.0)
+"""Tests for given normals. The lenient one is for points whose fan does not close otherwise, as in sharp creases."""
+STRICT_ESTIMATED, LENIENT_ESTIMATED = SurfaceTest(0.8, 0.6), SurfaceTest(0.9, 0.3)
+"""Estimated normals turn gradually wherever they are right."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -31,8 +46,7 @@ class TangentPlanes:
         space, so that bending draws no neighbour nearer.
     bends : (n, k, 2), normal of the neighbour minus normal of the point in `basis`, as long as in space.
     near : (n, k): the neighbour has neighbours of its own about as far away; nothing is near to an outlier.
-    on_surface : (n, k): near, neither end of the chord sees the other steeply above or below, and their normals
-        agree.
+    on_surface : (n, k): near, and on one piece of surface by the strict test. perhaps : by the lenient one.
     """
 
     basis: TangentBasis
@@ -41,24 +55,35 @@ class TangentPlanes:
     bends: FloatArray
     near: BoolArray
     on_surface: BoolArray
+    perhaps: BoolArray
 
     @classmethod
-    def of(cls, points: FloatArray, normals: FloatArray, *, count: int = FAN_NEIGHBOURS) -> TangentPlanes:
+    def of(cls, points: FloatArray, normals: FloatArray, *, estimated: bool = False) -> TangentPlanes:
         """Tangent planes of points in different places with unit `normals` (n, 3)."""
-        nearest = nearest_neighbours(points, count)
+        nearest = nearest_neighbours(points, FAN_NEIGHBOURS)
         offset = points[nearest.indices] - points[:, None]
-        direction = offset / nearest.distances[:, :, None]
         other = normals[nearest.indices]
         here = np.broadcast_to(normals[:, None], other.shape)
-        slope = np.maximum(
-            np.abs(np.einsum("nki,nki->nk", direction, here)), np.abs(np.einsum("nki,nki->nk", direction, other))
-        )
-        agree = reflected_cosines(direction, here, other) > LEAST_AGREEMENT
         reach = nearest.distances[:, -1:].max(axis=1, initial=0.0)
         near = nearest.distances <= FARTHEST * reach[nearest.indices]
+        strict, lenient = (STRICT_ESTIMATED, LENIENT_ESTIMATED) if estimated else (STRICT, LENIENT)
+        direction = offset / nearest.distances[:, :, None]
         basis = TangentBasis.of(normals, points)
-        plane, bends = _laid_down(offset, basis), _laid_down(other - here, basis)
-        return cls(basis, nearest, plane, bends, near, near & agree & (slope < STEEPEST))
+        return cls(
+            basis,
+            nearest,
+            _laid_down(offset, basis),
+            _laid_down(other - here, basis),
+            near,
+            near & _on_one_surface(direction, here, other, strict),
+            near & _on_one_surface(direction, here, other, lenient),
+        )
+
+
+def _on_one_surface(direction: FloatArray, here: FloatArray, other: FloatArray, test: SurfaceTest) -> BoolArray:
+    heights = np.einsum("nki,nki->nk", direction, here), np.einsum("nki,nki->nk", direction, other)
+    slope = np.maximum(np.abs(heights[0]), np.abs(heights[1]))
+    return np.asarray((slope < test.steepest) & (reflected_cosines(direction, here, other) > test.least_agreement))
 
 
 def _laid_down(vectors: FloatArray, basis: TangentBasis) -> FloatArray:
