@@ -77,7 +77,7 @@ class Canvas(View3D):
         """Colour the shape by `position` (n,) in [0, 1]; None is bare skin."""
         if self._body is not None:
             self._body.show_field(position)
-            self.update()
+            self.draw_moving()
 
     def show_picks(self, picks: tuple[Pick, ...]) -> None:
         """Mark the picked points."""
@@ -101,7 +101,7 @@ class Canvas(View3D):
         """Turn the direction field to `theta`."""
         if self._needles is not None:
             self._needles.turn(theta)
-            self.update()
+            self.draw_moving()
 
     def show_wireframe(self, on: bool) -> None:
         """Draw the triangles' edges."""
@@ -147,7 +147,7 @@ class Canvas(View3D):
         camera.SetViewUp(model.axes[1])
         self.renderer.ResetCameraClippingRange()
         self.camera_moved.emit()
-        self.update()
+        self.draw_moving()
 
     # -- picking ------------------------------------------------------------------------------------------------------
 
@@ -276,7 +276,6 @@ class Canvas(View3D):
         """Smooth edges from many samples, too slow for live pictures; transparent is black, as premultiplied needs."""
         renderer, window = self.renderer, self.render_window
         kept = renderer.GetBackground(), renderer.GetGradientBackground(), window.GetMultiSamples()
-        self.disable_anti_aliasing()
         window.SetMultiSamples(8)
         window.SetAlphaBitPlanes(1)
         if transparent:
@@ -294,7 +293,6 @@ class Canvas(View3D):
             renderer.SetGradientBackground(kept[1])
             renderer.SetBackgroundAlpha(1.0)
             window.SetMultiSamples(kept[2])
-            self.enable_anti_aliasing("fxaa")
             self.update()
 
     def _read_pixels(self, factor: int) -> NDArray[np.uint8]:
