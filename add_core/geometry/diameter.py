@@ -10,10 +10,10 @@ from scipy.sparse.csgraph import connected_components, dijkstra
 
 from .._check import FloatArray, IntArray
 from ..errors import GeometryError
+from .chords import chord_graph
 from .cloud import PointCloud
-from .geodesics import GEODESIC_NEIGHBOURS, exact_distances
+from .geodesics import exact_distances
 from .mesh import TriangleMesh
-from .neighbours import nearest_neighbours
 from .surface_pieces import surface_pieces
 
 SPREAD_POINTS = 8
@@ -56,18 +56,15 @@ def _mesh_pieces(mesh: TriangleMesh) -> list[_Piece]:
 
 
 def _cloud_pieces(cloud: PointCloud) -> list[_Piece]:
-    if cloud.vertex_count == 1:
-        return []
-    graph = nearest_neighbours(cloud.points, GEODESIC_NEIGHBOURS).lengths
+    graph, points = chord_graph(cloud), cloud.points
     labels = connected_components(graph, directed=False)[1]
     groups: list[IntArray] = [np.flatnonzero(labels == label) for label in np.unique(labels)]
-    groups.sort(key=lambda members: -float(np.ptp(cloud.points[members], axis=0).sum()))
-    return [_cloud_piece(cloud, graph, members) for members in groups[:MOST_PIECES]]
+    groups.sort(key=lambda members: -float(np.ptp(points[members], axis=0).sum()))
+    return [_cloud_piece(points[members], graph[members][:, members]) for members in groups[:MOST_PIECES]]
 
 
-def _cloud_piece(cloud: PointCloud, graph: csr_array, members: IntArray) -> _Piece:
-    part = graph[members][:, members]
-    return cloud.points[members], part, lambda node: np.asarray(dijkstra(part, directed=False, indices=[node])[0])
+def _cloud_piece(points: FloatArray, lengths: csr_array) -> _Piece:
+    return points, lengths, lambda node: np.asarray(dijkstra(lengths, directed=False, indices=[node])[0])
 
 
 def _best_end(positions: FloatArray, lengths: csr_array) -> int:

@@ -9,13 +9,10 @@ import numpy as np
 
 from .._check import FloatArray, IntArray, one_of, vertex_index
 from ..errors import ParameterError
+from .chords import chord_distances
 from .cloud import PointCloud
 from .mesh import TriangleMesh
-from .neighbours import nearest_neighbours
 from .surface_pieces import SurfacePiece, surface_pieces
-
-GEODESIC_NEIGHBOURS = 24
-"""Length of the chords between a cloud's points: paths of fewer neighbours zigzag, of more cut corners."""
 
 
 def geodesic_distances(
@@ -50,15 +47,6 @@ def geodesic_distances(
                 distances[row, piece.members] = measure(int(piece.node_of[chosen[row]]))[piece.node_of[piece.members]]
     distances[np.arange(len(chosen)), chosen] = 0.0
     return distances
-
-
-def chord_distances(cloud: PointCloud, sources: IntArray) -> FloatArray:
-    """(len(sources), n): lengths of shortest paths along chords between neighbouring points of a cloud."""
-    from scipy.sparse.csgraph import dijkstra
-
-    return np.asarray(
-        dijkstra(nearest_neighbours(cloud.points, GEODESIC_NEIGHBOURS).lengths, directed=False, indices=sources)
-    )
 
 
 def exact_distances(piece: SurfacePiece) -> Callable[[int], FloatArray]:

@@ -35,11 +35,6 @@ class Neighbours:
         radius = distances[:, -1:] * (1.0 if distances.shape[1] > 4 else 1.5)
         return np.asarray(1.0 - (distances / radius) ** 2)
 
-    @property
-    def lengths(self) -> csr_array:
-        """(n, n): a graph of distances between neighbours, to be read as undirected; duplicates are 0 apart."""
-        return undirected(self.indices, self.distances)
-
 
 @dataclass(frozen=True, eq=False)
 class DistinctPoints:

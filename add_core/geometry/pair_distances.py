@@ -11,10 +11,9 @@ from scipy.sparse import csr_array
 from scipy.sparse.csgraph import dijkstra
 
 from .._check import FloatArray, IntArray, index_array
+from .chords import chord_graph
 from .cloud import PointCloud
-from .geodesics import GEODESIC_NEIGHBOURS
 from .mesh import InnerEdges, TriangleMesh
-from .neighbours import nearest_neighbours
 from .sampling import farthest_points
 
 LANDMARKS = 500
@@ -60,7 +59,7 @@ class PairDistances:
     @cached_property
     def _graph(self) -> csr_array:
         if isinstance(self.shape, PointCloud):
-            return nearest_neighbours(self.shape.points, GEODESIC_NEIGHBOURS).lengths
+            return chord_graph(self.shape)
         return edges_and_crossings(self.shape)
 
     @cached_property

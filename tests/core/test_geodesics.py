@@ -39,6 +39,20 @@ def test_distances_on_a_cloud_follow_the_surface():
     assert_allclose(geodesic_distances(cloud, 7)[0], expected, rtol=0.03)
 
 
+def test_paths_on_a_cloud_do_not_jump_between_walls_that_face_each_other():
+    sheet = rectangle(n=12).vertices
+    folded = np.vstack([sheet, sheet + np.array([0, 0, 0.05])])  # nearer than neighbours on one sheet are
+    cloud = PointCloud(folded, np.repeat([[0, 0, 1.0], [0, 0, -1.0]], len(sheet), axis=0))
+    assert np.isinf(geodesic_distances(cloud, 0)[0, len(sheet) :]).all()
+
+
+def test_points_of_a_cloud_in_one_place_are_no_distance_apart():
+    ball = sphere(2).vertices
+    distances = geodesic_distances(PointCloud(np.vstack([ball, ball[:9]])), [5, 167])
+    assert_array_equal(distances[0], distances[1])
+    assert_array_equal(distances[:, 167], [0, 0])
+
+
 def test_each_source_has_a_row():
     mesh = sphere(2)
     both = geodesic_distances(mesh, [4, 11])
