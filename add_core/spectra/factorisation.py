@@ -60,19 +60,15 @@ class Factorisation:
         return x
 
     def _substituted(self, right: FloatArray) -> FloatArray:
-        p = right.shape[1]
-        x = np.empty((len(right) + 1, p))  # the last row is where padded fronts read and write
-        x[:-1] = right
-        x[-1] = 0.0
+        x = np.zeros((self.tree.workspace, right.shape[1]))
+        x[self.tree.places] = right
         steps = list(zip(self.tree.groups, self.inverses, self.couplings, strict=True))
         for group, _, coupling in steps:
             group.subtract(x, coupling @ group.own_rows(x))
         for group, inverse, coupling in reversed(steps):
-            own = inverse @ group.own_rows(x)
-            own -= coupling.transpose(0, 2, 1) @ x[group.rest]
-            group.set_own_rows(x, own)
-            x[-1] = 0.0
-        return x[:-1]
+            own = group.own_rows(x)
+            np.subtract(inverse @ own, coupling.transpose(0, 2, 1) @ group.rest_rows(x), out=own)
+        return np.take(x, self.tree.places, axis=0)
 
 
 def factorise(tree: FrontTree, values: FloatArray, shift: float, *, count: bool = False) -> Factorisation:
@@ -88,7 +84,7 @@ def factorise(tree: FrontTree, values: FloatArray, shift: float, *, count: bool 
     negatives = 0
     for group in tree.groups:
         front = _assemble(group, shifted, remainders)
-        s = group.own.shape[1]
+        s = group.size
         pivot, border = front[:, :s, :s], front[:, s:, :s]
         inverse = np.linalg.inv(pivot)
         inverse = 0.5 * (inverse + inverse.transpose(0, 2, 1))
@@ -105,9 +101,8 @@ def factorise(tree: FrontTree, values: FloatArray, shift: float, *, count: bool 
 
 def _assemble(group: FrontGroup, values: FloatArray, remainders: list[FloatArray]) -> FloatArray:
     """(c, s + r, s + r): the entries of A that a group eliminates, and what the sets below it left."""
-    c, s = group.own.shape
-    size = s + group.rest.shape[1]
-    front = np.zeros((c, size, size))
+    size = group.size + group.rest.shape[1]
+    front = np.zeros((group.fronts, size, size))
     flat = front.reshape(-1)
     flat[group.slots] = values[group.entries]
     flat[group.padding] = 1.0

@@ -16,7 +16,7 @@ PADDING = 1.3
 the work.
 """
 
-CALL = 20_000
+CALL = 15_000
 """What one more call costs, counted in entries of a front: below this a batch takes any padding."""
 
 
@@ -32,16 +32,21 @@ class ChildBlock:
 
 @dataclass(frozen=True, eq=False)
 class FrontGroup:
-    """Fronts that are treated by one call. Padding points to row n, one past the last.
+    """Fronts that are treated by one call, padded to one size.
 
-    own : (c, s) the rows that each front eliminates. rest : (c, r) the rows that it touches further up.
+    Vectors are solved in a workspace: each group's own rows lie together with their padding, one row of zeros last.
+
+    first : where its own rows begin in the workspace. fronts, size : c of them, s rows each.
+    rest : (c, r) the workspace rows that each front touches further up; padding points to the row of zeros.
     slots, entries : flat positions in (c, s + r, s + r) and the entries (of nnz) of A that belong there.
     padding : flat positions of the ones that keep padded pivots regular.
     children : what lower groups add.
-    targets, gather : rows touched by any front of the group, and the 0-1 matrix that sums their shares.
+    targets, gather : workspace rows touched by any front, and the 0-1 matrix that sums their shares.
     """
 
-    own: IntArray
+    first: int
+    fronts: int
+    size: int
     rest: IntArray
     slots: IntArray
     entries: IntArray
@@ -51,21 +56,18 @@ class FrontGroup:
     gather: csr_array
 
     def own_rows(self, x: FloatArray) -> FloatArray:
-        """(c, s, p) of x (n + 1, p)."""
-        if len(self.own) == 1 and self.own.size:
-            return x[None, self.own[0, 0] : self.own[0, -1] + 1]
-        return x[self.own]
+        """(c, s, p): a view of the workspace x."""
+        return x[self.first : self.first + self.fronts * self.size].reshape(self.fronts, self.size, x.shape[1])
 
-    def set_own_rows(self, x: FloatArray, own: FloatArray) -> None:
-        """Write (c, s, p) to x (n + 1, p); what padding writes lands in the last row."""
-        x[self.own] = own
+    def rest_rows(self, x: FloatArray) -> FloatArray:
+        """(c, r, p): a copy of the rows of x further up."""
+        return np.take(x, self.rest, axis=0)
 
     def subtract(self, x: FloatArray, shares: FloatArray) -> None:
         """Subtract (c, r, p) from the rows of x further up."""
-        if len(self.rest) == 1:
-            x[self.rest[0]] -= shares[0]
-        else:
-            x[self.targets] -= self.gather @ shares.reshape(-1, shares.shape[2])
+        if self.fronts > 1:
+            shares = self.gather @ shares.reshape(-1, shares.shape[2])
+        x[self.targets] = np.take(x, self.targets, axis=0) - shares.reshape(-1, x.shape[1])
 
 
 @dataclass(frozen=True, eq=False)
@@ -73,6 +75,7 @@ class FrontTree:
     """Everything about a factorisation that follows from the pattern (indptr, indices) of A alone.
 
     dissection : the order of elimination. diagonal : (n,) the diagonal entries of A. groups : lowest first.
+    places : (n,) where each row, in the tree's order, lies in the workspace of `workspace` rows.
     ordered_indptr, ordered_indices, ordered_entries : the pattern in the tree's order, and which entry of A goes where.
     """
 
@@ -81,6 +84,8 @@ class FrontTree:
     dissection: Dissection
     diagonal: IntArray
     groups: tuple[FrontGroup, ...]
+    places: IntArray
+    workspace: int
     ordered_indptr: IntArray
     ordered_indices: IntArray
     ordered_entries: IntArray
@@ -97,14 +102,16 @@ class FrontTree:
         position[dissection.permutation] = np.arange(n)
         rows = np.repeat(np.arange(n), np.diff(indptr))
         edges = np.column_stack([position[rows], position[indices]])
-        groups = tuple(_grouped(dissection, edges))
+        layout = _Layout(dissection, edges)
         entries = np.lexsort((edges[:, 1], edges[:, 0]))
         return cls(
             indptr=indptr,
             indices=indices,
             dissection=dissection,
             diagonal=read_only(np.flatnonzero(rows == indices)),
-            groups=groups,
+            groups=layout.groups,
+            places=read_only(layout.places),
+            workspace=layout.workspace,
             ordered_indptr=np.searchsorted(edges[entries, 0], np.arange(n + 1)),
             ordered_indices=edges[entries, 1],
             ordered_entries=entries,
@@ -132,26 +139,91 @@ def _heights(dissection: Dissection) -> IntArray:
     return heights
 
 
-def _grouped(dissection: Dissection, edges: IntArray) -> Iterator[FrontGroup]:
-    starts = dissection.starts
-    owner = np.repeat(np.arange(len(starts) - 1), np.diff(starts))[edges.min(axis=1)]
-    order = np.argsort(owner, kind="stable")
-    entry_groups = np.split(order, np.searchsorted(owner[order], np.arange(1, len(starts) - 1)))
-    rests = _rests(dissection, edges, entry_groups)
-    heights = _heights(dissection)
-    home: dict[int, tuple[int, int]] = {}
-    children: list[list[int]] = [[] for _ in dissection.parents]
-    for i, parent in enumerate(dissection.parents):
-        if parent >= 0:
-            children[parent].append(i)
-    number = 0
-    for height in range(int(heights.max()) + 1):
-        members = np.flatnonzero(heights == height)
-        for batch in _batches(members, np.diff(starts)[members], np.array([len(rests[i]) for i in members])):
+class _Layout:
+    """Forms groups from the lowest fronts up, and lays their rows out in the workspace."""
+
+    def __init__(self, dissection: Dissection, edges: IntArray) -> None:
+        self._starts, self._edges = dissection.starts, edges
+        sets = len(dissection.parents)
+        owner = np.repeat(np.arange(sets), np.diff(self._starts))[edges.min(axis=1)]
+        order = np.argsort(owner, kind="stable")
+        self._entries = np.split(order, np.searchsorted(owner[order], np.arange(1, sets)))
+        self._rests = _rests(dissection, edges, self._entries)
+        self._children: list[list[int]] = [[] for _ in range(sets)]
+        for i, parent in enumerate(dissection.parents):
+            if parent >= 0:
+                self._children[parent].append(i)
+        self._home: dict[int, tuple[int, int]] = {}
+        batches = self._all_batches(_heights(dissection))
+        self.places = np.empty(len(dissection.permutation), dtype=np.int64)
+        self.workspace = self._place(batches) + 1
+        self.groups = tuple(self._group(number, batch) for number, batch in enumerate(batches))
+
+    def _sizes(self, batch: IntArray) -> tuple[int, int]:
+        owns, rests = np.diff(self._starts)[batch], [len(self._rests[i]) for i in batch]
+        return int(owns.max()), max(rests)
+
+    def _all_batches(self, heights: IntArray) -> list[IntArray]:
+        batches: list[IntArray] = []
+        for height in range(int(heights.max()) + 1):
+            members = np.flatnonzero(heights == height)
+            rests = np.array([len(self._rests[i]) for i in members])
+            batches += _batches(members, np.diff(self._starts)[members], rests)
+        return batches
+
+    def _place(self, batches: list[IntArray]) -> int:
+        """Fill `places` and note where each batch begins; returns how many rows that takes."""
+        row = 0
+        self._firsts = []
+        for number, batch in enumerate(batches):
+            self._firsts.append(row)
+            size, _ = self._sizes(batch)
             for member, i in enumerate(batch):
-                home[int(i)] = (number, member)
-            yield _front_group(batch, starts, edges, entry_groups, rests, children, home)
-            number += 1
+                begin, end = self._starts[i], self._starts[i + 1]
+                self.places[begin:end] = row + member * size + np.arange(end - begin)
+                self._home[int(i)] = (number, member)
+            row += len(batch) * size
+        return row
+
+    def _group(self, number: int, batch: IntArray) -> FrontGroup:
+        s, r = self._sizes(batch)
+        zeros = self.workspace - 1
+        rest = np.full((len(batch), r), zeros)
+        slots, padding, blocks = [], [], []
+        for k, i in enumerate(batch):
+            begin, end, after = self._starts[i], self._starts[i + 1], self._rests[i]
+
+            def place(rows: IntArray, begin: int = begin, end: int = end, after: IntArray = after) -> IntArray:
+                return np.where(rows < end, rows - begin, s + np.searchsorted(after, rows))
+
+            rest[k, : len(after)] = self.places[after]
+            base = k * (s + r) ** 2
+            row, column = place(self._edges[self._entries[i]]).T
+            slots.append(base + row * (s + r) + column)
+            padding.append(base + np.arange(end - begin, s) * (s + r + 1))
+            for child in self._children[i]:
+                blocks.append(ChildBlock(*self._home[child], parent=k, positions=place(self._rests[child])))
+        targets, gather = _gathering(rest, zeros)
+        return FrontGroup(
+            first=self._firsts[number],
+            fronts=len(batch),
+            size=s,
+            rest=read_only(rest),
+            slots=np.concatenate(slots),
+            entries=np.concatenate([self._entries[i] for i in batch]),
+            padding=np.concatenate(padding),
+            children=tuple(blocks),
+            targets=targets,
+            gather=gather,
+        )
+
+
+def _gathering(rest: IntArray, zeros: int) -> tuple[IntArray, csr_array]:
+    if len(rest) == 1:
+        return rest[0], csr_array((1, 1))
+    valid = rest.ravel() < zeros
+    targets, target = np.unique(rest.ravel()[valid], return_inverse=True)
+    return targets, csr_array((np.ones(len(target)), (target, np.flatnonzero(valid))), shape=(len(targets), rest.size))
 
 
 def _batches(members: IntArray, owns: IntArray, rests: IntArray) -> Iterator[IntArray]:
@@ -168,45 +240,3 @@ def _batches(members: IntArray, owns: IntArray, rests: IntArray) -> Iterator[Int
         batch.append(k)
         real += work
     yield members[batch]
-
-
-def _front_group(
-    batch: IntArray,
-    starts: IntArray,
-    edges: IntArray,
-    entry_groups: list[IntArray],
-    rests: list[IntArray],
-    children: list[list[int]],
-    home: dict[int, tuple[int, int]],
-) -> FrontGroup:
-    n = int(starts[-1])
-    s = max(int(starts[i + 1] - starts[i]) for i in batch)
-    r = max(len(rests[i]) for i in batch)
-    own, rest = np.full((len(batch), s), n), np.full((len(batch), r), n)
-    slots, padding, blocks = [], [], []
-    for k, i in enumerate(batch):
-        begin, end = starts[i], starts[i + 1]
-        own[k, : end - begin] = np.arange(begin, end)
-        rest[k, : len(rests[i])] = rests[i]
-
-        def place(rows: IntArray, begin: int = begin, end: int = end, after: IntArray = rests[i]) -> IntArray:
-            return np.where(rows < end, rows - begin, s + np.searchsorted(after, rows))
-
-        base = k * (s + r) ** 2
-        row, column = place(edges[entry_groups[i]]).T
-        slots.append(base + row * (s + r) + column)
-        padding.append(base + np.arange(end - begin, s) * (s + r + 1))
-        blocks += [ChildBlock(*home[child], parent=k, positions=place(rests[child])) for child in children[i]]
-    valid = rest.ravel() < n
-    targets, target = np.unique(rest.ravel()[valid], return_inverse=True)
-    gather = csr_array((np.ones(len(target)), (target, np.flatnonzero(valid))), shape=(len(targets), len(batch) * r))
-    return FrontGroup(
-        own=read_only(own),
-        rest=read_only(rest),
-        slots=np.concatenate(slots),
-        entries=np.concatenate([entry_groups[i] for i in batch]),
-        padding=np.concatenate(padding),
-        children=tuple(blocks),
-        targets=targets,
-        gather=gather,
-    )

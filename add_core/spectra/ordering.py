@@ -63,7 +63,7 @@ def known_dissection(indptr: IntArray, indices: IntArray) -> Dissection:
     return found
 
 
-def nested_dissection(indptr: IntArray, indices: IntArray, *, leaf: int = 64) -> Dissection:
+def nested_dissection(indptr: IntArray, indices: IntArray, *, leaf: int = 40) -> Dissection:
     """Dissect the graph of a symmetric sparse matrix into sets of at most about `leaf` vertices.
 
     indptr, indices : compressed rows of the pattern; entries on the diagonal do not matter.

@@ -62,7 +62,8 @@ def repaired(factors: Factorisation, matrix: csr_array, kernel: FloatArray, pair
     """
     pairs = _orthonormal(pairs)
     bad = failing(matrix, pairs)
-    if bad.any():
+    mended = bool(bad.any())
+    if mended:
         pairs = _polished(factors, pairs, bad)
         bad = failing(matrix, pairs)
     if bad.any() and not bad[len(bad) // 2 :].any():  # the upper half would hardly improve from below zero
@@ -70,7 +71,7 @@ def repaired(factors: Factorisation, matrix: csr_array, kernel: FloatArray, pair
         bad = failing(matrix, pairs)
     if bad.any():
         raise ConvergenceError(f"{bad.sum()} of {len(bad)} eigenpairs miss a residual of {RESIDUAL:.0e}.")
-    if _skewness(pairs.vectors) > 5 * ORTHONORMAL:
+    if mended and _skewness(pairs.vectors) > 5 * ORTHONORMAL:
         raise ConvergenceError("Eigenvectors lost their orthogonality where slivers amplify rounding.")
     return pairs
 
@@ -91,7 +92,7 @@ def _polished(factors: Factorisation, pairs: StandardPairs, bad: BoolArray) -> S
 
 def _skewness(vectors: FloatArray) -> float:
     """About the largest entry of uᵀu − I, by random probes instead of all products."""
-    probes = np.random.default_rng(2).choice([-1.0, 1.0], size=(vectors.shape[1], 4))
+    probes = np.random.default_rng(2).choice([-1.0, 1.0], size=(vectors.shape[1], 2))
     return float(np.abs(vectors.T @ (vectors @ probes) - probes).max())
 
 
@@ -123,11 +124,18 @@ def _improved(
     )
 
 
-def oriented(functions: FloatArray) -> FloatArray:
-    """Fix the sign of each column: positive at the first vertex where it exceeds half of its largest magnitude.
+def orient(functions: FloatArray) -> None:
+    """Fix the sign of each column in place: positive at the first vertex where it exceeds half of its largest size.
 
     A threshold, unlike the largest entry itself, does not waver between the two poles of a symmetric shape.
     """
-    size = np.abs(functions)
-    first = np.argmax(size > 0.5 * size.max(axis=0, initial=0.0), axis=0)
-    return functions * np.where(functions[first, np.arange(functions.shape[1])] < 0, -1.0, 1.0)
+    half = 0.5 * np.maximum(functions.max(axis=0, initial=0.0), -functions.min(axis=0, initial=0.0))
+    signs = np.zeros(functions.shape[1])
+    for begin in range(0, len(functions), COLUMNS):
+        if signs.all():
+            break
+        rows = functions[begin : begin + COLUMNS]
+        large = np.abs(rows) > half
+        first = rows[np.argmax(large, axis=0), np.arange(len(signs))]
+        signs = np.where((signs == 0) & large.any(axis=0), np.sign(first), signs)
+    functions *= np.where(signs < 0, -1.0, 1.0)

@@ -17,7 +17,7 @@ from .factorisation import factorise, factorise_near
 from .fronts import FrontTree
 from .lanczos import RitzPairs, shift_invert_lanczos
 from .ordering import Dissection, known_dissection
-from .refinement import RESIDUAL, StandardPairs, oriented, repaired
+from .refinement import RESIDUAL, StandardPairs, orient, repaired
 
 _log = logging.getLogger(__name__)
 
@@ -74,7 +74,8 @@ class PencilSolver:
         pairs, fallback = self._beside_kernel(matrix, kernel, count - len(kernel), scale)
         functions = np.zeros((len(self.mass), count))
         functions[self.active, : len(kernel)] = kernel.T / root[:, None]
-        functions[self.active, len(kernel) :] = oriented(pairs.vectors / root[:, None])
+        functions[self.active, len(kernel) :] = pairs.vectors / root[:, None]
+        orient(functions[:, len(kernel) :])
         return Eigenpairs(np.concatenate([np.zeros(len(kernel)), pairs.values]), functions, fallback)
 
     @cached_property
@@ -155,9 +156,9 @@ class PencilSolver:
             count,
             shift=factors.shift,
             block=block,
-            first_check=len(kernel) + max(int(1.8 * count), count + 8 * block),
+            first_check=len(kernel) + max(int(1.91 * count), count + 8 * block),
             most=min(len(kernel) + 4 * count + 30 * block, len(order) - 2 * block),
-            tolerance=0.5 * RESIDUAL,
+            tolerance=0.8 * RESIDUAL,
             floor=1e-6 * shift,
             always=always,
         )
@@ -169,10 +170,11 @@ class PencilSolver:
     def _count_check(self, values: FloatArray, ritz: RitzPairs, count: int, kernel: int) -> None:
         """Raise ConvergenceError unless Sylvester's inertia finds no more eigenvalues than Lanczos did."""
         ahead = ritz.values[count - 1 : count + 6]
+        if len(ahead) == 1:
+            ahead = np.append(ahead, ahead[0] * (1 + 2e-6))
         gaps = np.diff(ahead)
-        if len(gaps) == 0:
-            ahead, gaps = np.array([ahead[0], 1.0 + 2e-6 * ahead[0]]), np.ones(1)
-        for k in (int(np.argmax(gaps)), 0):
+        nearest_first = (0, int(np.argmax(gaps))) if gaps[0] > 1e-5 * ahead[0] else (int(np.argmax(gaps)), 0)
+        for k in nearest_first:
             between = 0.5 * (ahead[k] + ahead[k + 1])
             found = factorise(self.tree, values, between, count=True).negatives
             if found == kernel + count + k:
