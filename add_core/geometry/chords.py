@@ -4,31 +4,45 @@ from __future__ import annotations
 
 import numpy as np
 from scipy.sparse import coo_array, csr_array
-from scipy.sparse.csgraph import dijkstra
+from scipy.sparse.csgraph import connected_components, dijkstra
 
 from .._check import FloatArray, IntArray
 from .cloud import PointCloud
 
 
 def chord_graph(cloud: PointCloud) -> csr_array:
-    """(n, n): lengths of the chords between neighbours on one piece of surface, to be read as undirected.
+    """(n, n): lengths of the chords that paths may take, to be read as undirected.
 
-    Chords across a limb or a gap are left out, as they are from the fans, so that no path jumps between parts that
-    face each other. Points in one place are joined by edges of length 0, stored as such.
+    Chords join points that hold each other in their fans, and points two or three such steps apart on one piece of
+    surface (single steps would zigzag). What only one of two fans claims may bridge a gap, which a shortest path
+    would not miss: it counts only where nothing else joins two pieces. Points in one place are joined by edges of
+    length 0, stored as such.
     """
-    planes, first = cloud.tangent_planes, cloud.distinct.first
-    centre, column = np.nonzero(planes.on_surface)
-    sides = cloud.fans.triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)
-    doubled = np.flatnonzero(first[cloud.distinct.place] != np.arange(cloud.vertex_count))
-    i = np.concatenate([first[centre], sides[:, 0], doubled])
-    j = np.concatenate(
-        [first[planes.nearest.indices[centre, column]], sides[:, 1], first[cloud.distinct.place[doubled]]]
-    )
+    n, first, place = cloud.vertex_count, cloud.distinct.first, cloud.distinct.place
+    corners = place[cloud.fans.triangles]
+    claimed = _pattern(np.repeat(corners[:, 0], 2), corners[:, 1:].ravel(), len(first))
+    held = claimed.multiply(claimed.T).tocsr()
+    neighbours = cloud.tangent_planes.nearest.indices
+    centre, column = np.nonzero(cloud.tangent_planes.on_surface)
+    seen = _pattern(centre, neighbours[centre, column], len(first))
+    chords = (held + (held @ held + held @ held @ held).multiply(seen + seen.T)).tocoo()
+    piece = connected_components(chords, directed=False)[1]
+    loose = claimed.tocoo()
+    joins = piece[loose.row] != piece[loose.col]
+    doubled = np.flatnonzero(first[place] != np.arange(n))
+    i = np.concatenate([first[chords.row], first[loose.row[joins]], doubled])
+    j = np.concatenate([first[chords.col], first[loose.col[joins]], first[place[doubled]]])
     low, high = np.minimum(i, j), np.maximum(i, j)
-    _, once = np.unique(low * cloud.vertex_count + high, return_index=True)
+    _, once = np.unique(low * n + high, return_index=True)
     low, high = low[once], high[once]
     lengths = np.linalg.norm(cloud.points[low] - cloud.points[high], axis=1)
-    return csr_array(coo_array((lengths, (low, high)), shape=(cloud.vertex_count,) * 2))
+    return csr_array(coo_array((lengths, (low, high)), shape=(n, n)))
+
+
+def _pattern(rows: IntArray, columns: IntArray, count: int) -> csr_array:
+    """(count, count): 1 at the given places."""
+    entries = np.unique(rows * count + columns)
+    return csr_array(coo_array((np.ones(len(entries)), (entries // count, entries % count)), shape=(count, count)))
 
 
 def chord_distances(cloud: PointCloud, sources: IntArray) -> FloatArray:
