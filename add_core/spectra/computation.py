@@ -64,7 +64,7 @@ def run_job(
                 return found
             if store is not None and folder.parent == store.folder:
                 return store.commit(folder, key, found, label)
-            return found | {"eigenfunctions": np.load(folder / EIGENFUNCTIONS, allow_pickle=False)}
+            return found | {"eigenfunctions": _taken_over(folder / EIGENFUNCTIONS)}
         except WorkersUnavailable as error:
             _log.warning("Solving in this process instead: %s.", error)
         except _StoppedByCaller as stopped:
@@ -149,6 +149,11 @@ def _solved(job: SpectralJob, pool: WorkerPool | None, folder: Path | None, prog
         shutil.rmtree(folder / "inputs")
     found: Arrays = {"eigenvalues": eigenvalues, "mass": job.mass, "fallbacks": np.array(fallbacks)}
     return found if output is None else found | {"eigenfunctions": output}
+
+
+def _taken_over(path: Path) -> np.ndarray[Any, Any]:
+    """An array whose file is about to go: mapped where a file may go while it is mapped, else copied to memory."""
+    return np.asarray(np.load(path, mmap_mode=None if os.name == "nt" else "r", allow_pickle=False))
 
 
 def _writer(
