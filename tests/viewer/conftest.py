@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import fcntl
 import os
+import tempfile
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -63,10 +65,15 @@ def torus() -> OpenShape:
 
 
 @pytest.fixture
-def screen() -> None:
-    """Skips tests of windows where there is no display."""
-    if not os.environ.get("DISPLAY"):
+def screen() -> Iterator[None]:
+    """The screen for one test at a time: windows of two processes would take the keyboard from each other."""
+    display = os.environ.get("DISPLAY")
+    if not display:
         pytest.skip('needs a screen: xvfb-run -a -s "-screen 0 1440x900x24" python -m pytest')
+    lock = Path(tempfile.gettempdir()) / f"add-viewer-tests{display.replace('/', '_')}.lock"
+    with lock.open("w") as file:
+        fcntl.flock(file, fcntl.LOCK_EX)
+        yield
 
 
 @pytest.fixture
