@@ -12,11 +12,13 @@ os.environ.setdefault("QT_API", "pyside6")
 from PySide6.QtCore import QSettings, QTimer
 from PySide6.QtWidgets import QApplication
 
+from add_core.io import SHIPPED
+
 from .controllers.curves import CurvesController
 from .controllers.directions import DirectionsController
 from .controllers.exporting import curves_table, write_atomically
 from .controllers.kernel import KernelController
-from .controllers.opening import SHIPPED, OpeningController
+from .controllers.opening import OpeningController
 from .controllers.operators import OperatorStore
 from .controllers.running import explain
 from .models.display import Display

@@ -9,7 +9,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QImage
 from PySide6.QtWidgets import QApplication, QMainWindow
 
-from add_viewer.controllers.opening import SHIPPED
+from add_core.io import SHIPPED
 from add_viewer.models.shapes import OpenShape
 from add_viewer.views.canvas import Canvas
 

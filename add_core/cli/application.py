@@ -39,8 +39,8 @@ class _Commands(click.Group):
 def application(verbose: bool) -> None:
     """Anisotropic diffusion descriptors of shapes.
 
-    A shape is a file (OFF, OBJ, PLY, STL, VTP, VTK, GLB, XYZ, NPZ) or one that ships with the program: humans:0 to
-    humans:99, poses:0 to poses:70, dogs:0 to dogs:39.
+    A shape is a file (OFF, OBJ, PLY, STL, VTP, VTK, GLB, XYZ, NPZ) or one that ships with the program: humans/0 to
+    humans/99, poses/0 to poses/70, dogs/0 to dogs/39.
     """
     logging.basicConfig(level=logging.INFO if verbose else logging.WARNING, format="add-core: %(message)s")
 

@@ -11,12 +11,11 @@ from typing import Any
 import click
 
 from ..errors import ParameterError
-from ..io import Collection, dogs, humans, open_collection, poses
+from ..io import SHIPPED, Collection, open_collection
 from ..operators import Conductivity
 from . import options
 from .reporting import result
 
-_SHIPPED = {"humans": humans, "poses": poses, "dogs": dogs}
 _NETWORKS = ("ADD1", "ADD2", "ADD3", "mADD1", "mADD2", "mADD3", "mADD4")
 _FOLDER = click.Path(path_type=Path, file_okay=False)
 Report = Callable[[dict[str, Any]], object]
@@ -74,10 +73,10 @@ def command(architecture: str, data: str, run: Path, as_json: bool, **chosen: An
 
 
 def _collection(data: str) -> Collection:
-    if data in _SHIPPED and not Path(data).exists():
-        return _SHIPPED[data]()
+    if data in SHIPPED and not Path(data).exists():
+        return SHIPPED[data]()
     if not Path(data).is_dir():
-        raise ParameterError(f"--data must be {', '.join(_SHIPPED)} or a folder, but there is no folder {data!r}.")
+        raise ParameterError(f"--data must be {', '.join(SHIPPED)} or a folder, but there is no folder {data!r}.")
     return open_collection(data)
 
 

@@ -5,11 +5,13 @@ from .collection import Collection, Landmarks
 from .files import load_fields, load_shape, save_shape
 from .folders import open_collection
 from .formats import extensions
-from .shipped import dogs, humans, poses
+from .shipped import SHIPPED, ShippedPlace, dogs, humans, poses, shipped_place
 
 __all__ = [
+    "SHIPPED",
     "Collection",
     "Landmarks",
+    "ShippedPlace",
     "dogs",
     "extensions",
     "humans",
@@ -19,4 +21,5 @@ __all__ = [
     "poses",
     "save_arrays",
     "save_shape",
+    "shipped_place",
 ]

@@ -2,24 +2,19 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 
-from add_core.errors import ShapeFileError
 from add_core.geometry import normalize
-from add_core.io import Collection, dogs, humans, load_shape, poses
+from add_core.io import ShippedPlace, load_shape, shipped_place
 
 from ..models.results import Results
 from ..models.session import Session
 from ..models.shapes import OpenShape, Shape
 from .running import Run, explain
-
-SHIPPED: dict[str, Callable[[], Collection]] = {"humans": humans, "poses": poses, "dogs": dogs}
-_SHIPPED_NAME = re.compile(r"(humans|poses|dogs)/(\d+)")
 
 
 class OpeningController:
@@ -66,27 +61,22 @@ def read_shape(reference: str) -> OpenShape:
 
     Raises ShapeFileError or GeometryError, worded for the person who asked.
     """
-    shipped = _SHIPPED_NAME.fullmatch(reference)
-    if shipped and not Path(reference).exists():
-        return _read_shipped(reference, shipped[1], int(shipped[2]))
+    place = None if Path(reference).exists() else shipped_place(reference)
+    if place is not None:
+        return _read_shipped(place)
     path = Path(reference).expanduser()
     shape = load_shape(path)
     key = str(path.resolve())
     return _open_shape(shape, key=key, reference=key, name=shape.name or path.stem)
 
 
-def _read_shipped(reference: str, collection_name: str, index: int) -> OpenShape:
-    collection = SHIPPED[collection_name]()
-    if index >= len(collection):
-        raise ShapeFileError(
-            f"{collection_name} holds shapes {collection_name}/0 to {collection_name}/{len(collection) - 1}, "
-            f"but {reference} was asked for."
-        )
+def _read_shipped(place: ShippedPlace) -> OpenShape:
+    collection = place.collection
     opened = _open_shape(
-        collection[index],
-        key=reference,
-        reference=reference,
-        name=_capital(collection.names[index]),
+        collection[place.index],
+        key=place.name,
+        reference=place.name,
+        name=_capital(collection.names[place.index]),
     )
     return replace(opened, unit=collection.unit, symmetry=collection.symmetry, up=collection.up, front=collection.front)
 

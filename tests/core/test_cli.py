@@ -56,7 +56,7 @@ def test_a_bad_file_does_not_hide_the_good_ones(capsys):
     assert [json.loads(line)["file"] for line in out.splitlines()] == ["dogs:0"]
     assert err.splitlines() == [
         "add-core: missing.off: there is no such file.",
-        "add-core: humans has shapes 0 to 99, but 100 was asked for.",
+        "add-core: humans holds shapes humans/0 to humans/99, but humans:100 was asked for.",
     ]
 
 

@@ -98,7 +98,10 @@ def test_every_descriptor_comes_out_finite_for_every_vertex(egg, tmp_path, descr
     [
         (("kernel", "humans:0", "--source", 99999), "source must be from 0 to 6889, but it is 99999."),
         (("kernel", "missing.ply", "--source", 0), "missing.ply: there is no such file."),
-        (("kernel", "humans:100", "--source", 0), "humans has shapes 0 to 99, but 100 was asked for."),
+        (
+            ("kernel", "humans:100", "--source", 0),
+            "humans holds shapes humans/0 to humans/99, but humans:100 was asked for.",
+        ),
         (("kernel", "humans:0", "--source", 0, "--alpha", -1), "alpha must be finite and at least 0, but it is -1.0."),
         (("spectra", "humans:0", "--alphas", "0,x"), "'0,x' is not a list of numbers such as 0,25,50."),
         (("spectra", "humans:0", "-o", "out.txt"), "out.txt must end in one of .npz."),

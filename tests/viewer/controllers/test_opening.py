@@ -5,8 +5,8 @@ import pytest
 
 from add_core.errors import AddError
 from add_core.geometry import shapes
-from add_core.io import save_shape
-from add_viewer.controllers.opening import SHIPPED, OpeningController, read_shape
+from add_core.io import SHIPPED, save_shape
+from add_viewer.controllers.opening import OpeningController, read_shape
 from add_viewer.models.results import Results
 from add_viewer.models.session import Session
 

@@ -338,7 +338,7 @@ def test_every_shipped_shape_can_be_shown(person):
     """The cheap path: the view shows each shape without its operator being built."""
     from dataclasses import replace
 
-    from add_viewer.controllers.opening import SHIPPED
+    from add_core.io import SHIPPED
 
     person.open()
     known = person.session.state.active
