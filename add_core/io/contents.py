@@ -60,16 +60,22 @@ def fan_triangles(corners: IntArray, counts: IntArray) -> IntArray:
     """
     if len(counts) == 0:
         return np.zeros((0, 3), dtype=np.int64)
-    if counts.min() < 3:
-        first = int(np.argmax(counts < 3))
-        raise ShapeFileError(f"face {first} has {counts[first]} corners, but a face needs at least 3.")
+    check_corner_counts(counts)
     if (counts == 3).all():
         return corners.reshape(-1, 3)
-    _log.info(
-        "%d of %d faces have more than three corners; each was split into a fan.", (counts > 3).sum(), len(counts)
-    )
     starts = np.repeat(np.cumsum(counts) - counts, counts - 2)
     ends = np.cumsum(counts - 2)
     step = np.arange(ends[-1]) - np.repeat(ends - (counts - 2), counts - 2)
     triangles: IntArray = np.stack([corners[starts], corners[starts + step + 1], corners[starts + step + 2]], axis=1)
     return triangles
+
+
+def check_corner_counts(counts: IntArray) -> None:
+    """Log that polygons are split, if there are any. Raises ShapeFileError if one has fewer than three corners."""
+    if (counts < 3).any():
+        first = int(np.argmax(counts < 3))
+        raise ShapeFileError(f"face {first} has {counts[first]} corners, but a face needs at least 3.")
+    if (counts > 3).any():
+        _log.info(
+            "%d of %d faces have more than three corners; each was split into a fan.", (counts > 3).sum(), len(counts)
+        )

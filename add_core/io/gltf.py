@@ -2,6 +2,9 @@
 
 glTF files are y up and in metres; coordinates are kept as the scene gives them. Vertices are neither merged nor
 reordered, and several materials of one mesh share its vertices, as they do in the file.
+
+Written by trimesh, but read here: trimesh visits the nodes in another order, repeats shared vertices, and takes
+coordinates that are stored as differences for zeros.
 """
 
 from __future__ import annotations
@@ -16,7 +19,7 @@ from .._check import FloatArray, IntArray
 from ..errors import ShapeFileError
 from ..geometry import TriangleMesh
 from .contents import Fields, FileContents, Shape, indices
-from .gltf_buffers import Buffers, open_gltf, packed_glb
+from .gltf_buffers import Buffers, open_gltf
 
 _POINTS, _TRIANGLES, _STRIP, _FAN = 0, 4, 5, 6
 _NOT_GLTF = (AttributeError, LookupError, OverflowError, RecursionError, TypeError, ValueError)
@@ -62,29 +65,13 @@ def read(data: bytes, path: Path) -> FileContents:
 
 
 def write(shape: Shape, fields: Fields) -> bytes:
-    """A GLB file: single precision."""
+    """A GLB file: single precision, one node."""
     if not isinstance(shape, TriangleMesh):
         raise ShapeFileError("a GLB file holds triangles; few programs show its points. Choose PLY, OFF, XYZ or VTP.")
-    corners, points = shape.faces.astype("<u4"), shape.vertices.astype("<f4")
-    sizes = (corners.nbytes, points.nbytes)
-    box = {"min": points.min(axis=0).tolist(), "max": points.max(axis=0).tolist()}  # the format demands it
-    tree = {
-        "asset": {"version": "2.0", "generator": "add_core"},
-        "scene": 0,
-        "scenes": [{"nodes": [0]}],
-        "nodes": [{"mesh": 0, "name": shape.name or "shape"}],
-        "meshes": [{"primitives": [{"attributes": {"POSITION": 1}, "indices": 0}]}],
-        "accessors": [
-            {"bufferView": 0, "componentType": 5125, "count": corners.size, "type": "SCALAR"},
-            {"bufferView": 1, "componentType": 5126, "count": len(points), "type": "VEC3", **box},
-        ],
-        "bufferViews": [
-            {"buffer": 0, "byteOffset": 0, "byteLength": sizes[0], "target": 34963},
-            {"buffer": 0, "byteOffset": sizes[0], "byteLength": sizes[1], "target": 34962},
-        ],
-        "buffers": [{"byteLength": sum(sizes)}],
-    }
-    return packed_glb(tree, corners.tobytes() + points.tobytes())
+    from trimesh import Scene, Trimesh
+    from trimesh.exchange.gltf import export_glb
+
+    return bytes(export_glb(Scene({shape.name or "shape": Trimesh(shape.vertices, shape.faces, process=False)})))
 
 
 def _placed_meshes(tree: dict[str, Any]) -> Iterator[tuple[FloatArray, int]]:

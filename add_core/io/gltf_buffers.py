@@ -5,7 +5,6 @@ from __future__ import annotations
 import base64
 import binascii
 import json
-import struct
 from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
 from typing import Any
@@ -66,14 +65,6 @@ def open_gltf(data: bytes, path: Path) -> Buffers:
     if packed:
         raise ShapeFileError(f"is compressed by {packed[0]}. Export it without compression.")
     return Buffers(tree, tuple(_buffer(entry.get("uri"), blob, path.parent) for entry in tree.get("buffers", [])))
-
-
-def packed_glb(tree: dict[str, Any], blob: bytes) -> bytes:
-    """A GLB file of a description and one buffer, whose length is a multiple of 4."""
-    text = json.dumps(tree).encode()
-    text += b" " * (-len(text) % 4)
-    chunks = struct.pack("<I4s", len(text), b"JSON") + text + struct.pack("<I4s", len(blob), b"BIN\0") + blob
-    return struct.pack("<4sII", b"glTF", 2, 12 + len(chunks)) + chunks
 
 
 def _chunks(data: bytes) -> tuple[bytes, bytes | None]:

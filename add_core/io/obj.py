@@ -1,7 +1,8 @@
 """Wavefront OBJ: the `v` and `f` lines, whatever groups, objects, materials and texture coordinates stand between.
 
 Corners such as 7/2/5 also number a texture coordinate and a normal. Readers for rendering split vertices where those
-differ; here a vertex is a `v` line, and its number is the line's place among them.
+differ; here a vertex is a `v` line, and its number is the line's place among them. trimesh, too, drops vertices where
+there are texture coordinates, and counts negative numbers from the end of the file; its writer rounds.
 """
 
 from __future__ import annotations

@@ -1,39 +1,54 @@
-"""OFF: counts, vertices, polygons. Colours are ignored; normals (NOFF) are kept for points without faces."""
+"""OFF: counts, vertices, polygons. Colours are ignored; normals (NOFF) are kept for points without faces.
+
+Numbers are read by trimesh, from lines without what it stumbles over: comments, which make it read lines twice, and
+polygons, of which it fails on five corners beside triangles and passes over one or two. Written here, because trimesh
+rounds coordinates.
+"""
 
 from __future__ import annotations
 
 import re
+from io import StringIO
+from itertools import pairwise
 
 import numpy as np
 
-from .._check import IntArray
 from ..errors import ShapeFileError
 from ..geometry import PointCloud
-from .contents import Fields, FileContents, Shape, fan_triangles
-from .text import Line, excerpt, float_rows, lines_of, whole
+from .complaints import complaints_about
+from .contents import Fields, FileContents, Shape, check_corner_counts
+from .text import excerpt, lines_of
 
-_HEADER = re.compile(r"(ST)?C?(N)?(4)?(n)?OFF")
+_HEADER = re.compile(r"(?:ST)?C?(N?)(4?n?)OFF\s*(.*)")
+_COUNTS = re.compile(r"(\d{1,18})\s+(\d{1,18})(\s|$)")
 
 
 def read(data: bytes) -> FileContents:
     """The vertices and faces of an OFF file, in its order, 0-based."""
-    lines = lines_of(data)
+    from trimesh.exchange.off import load_off
+
+    lines = [" ".join(words) for _, words in lines_of(data)]
     if not lines:
         raise ShapeFileError("holds only comments.")
-    header = _HEADER.match(lines[0][1][0])
+    header = _HEADER.match(lines[0])
     if header is None:
-        raise ShapeFileError(f"an OFF file starts with the word OFF, but this one starts with {excerpt(lines[0][1])}.")
-    if header[3] or header[4]:
+        raise ShapeFileError(f"an OFF file starts with the word OFF, but this one starts with {excerpt([lines[0]])}.")
+    if header[2]:
         raise ShapeFileError("holds points of another dimension than three.")
-    vertex_count, face_count, rest = _counts(lines, header[0])
-    if vertex_count + face_count > len(rest):
+    claims, rows = (header[3], lines[1:]) if header[3] else ("".join(lines[1:2]), lines[2:])
+    vertex_count, face_count = _counts(claims)
+    if vertex_count + face_count > len(rows):
         raise ShapeFileError(
-            f"claims {vertex_count} vertices and {face_count} faces, but only {len(rest)} lines follow. Is it cut off?"
+            f"claims {vertex_count} vertices and {face_count} faces, but only {len(rows)} lines follow. Is it cut off?"
         )
-    width = 6 if header[2] else 3
-    numbers = float_rows(rest[:vertex_count], width, f"a vertex of {width} numbers")
-    faces = _faces(rest[vertex_count : vertex_count + face_count]) if face_count else None
-    return FileContents(numbers[:, :3], faces, numbers[:, 3:] if header[2] else None)
+    points, polygons = rows[:vertex_count], rows[vertex_count : vertex_count + face_count]
+    with complaints_about("OFF"):
+        triangles, triangle_count = _fans(polygons)
+        loaded = load_off(StringIO("\n".join(["OFF", f"{vertex_count} {triangle_count} 0", *points, *triangles])))
+        normals = np.loadtxt(points, usecols=(3, 4, 5), ndmin=2) if header[1] and not face_count else None
+    if len(loaded["faces"]) != triangle_count:
+        raise ShapeFileError("has faces with fewer corners than they claim. Is it damaged?")
+    return FileContents(loaded["vertices"], loaded["faces"] if face_count else None, normals)
 
 
 def write(shape: Shape, fields: Fields) -> bytes:
@@ -45,34 +60,26 @@ def write(shape: Shape, fields: Fields) -> bytes:
     return ("\n".join(lines) + "\n").encode()
 
 
-def _counts(lines: list[Line], header: str) -> tuple[int, int, list[Line]]:
-    """Vertices, faces, and the lines after the counts, which stand behind the header or on the next line."""
-    number, words = lines[0]
-    counts, rest = [words[0].removeprefix(header), *words[1:]], lines[1:]
-    counts = [word for word in counts if word]
-    if not counts:
-        if not rest:
-            raise ShapeFileError("ends before the numbers of vertices and faces.")
-        (number, counts), rest = rest[0], rest[1:]
-    if len(counts) < 2:
+def _counts(claims: str) -> tuple[int, int]:
+    """How many vertices and faces the file claims."""
+    if not claims:
+        raise ShapeFileError("ends before the numbers of vertices and faces.")
+    counts = _COUNTS.match(claims)
+    if counts is None:
         raise ShapeFileError(
-            f"line {number} should hold the numbers of vertices and faces, but it reads {excerpt(counts)}."
+            f"should hold the numbers of vertices and faces, but instead it reads {excerpt([claims])}."
         )
-    vertices, faces = (whole(word, number, "the numbers of vertices and faces") for word in counts[:2])
-    if vertices < 0 or faces < 0:
-        raise ShapeFileError(f"line {number} claims {vertices} vertices and {faces} faces.")
-    return vertices, faces, rest
+    return int(counts[1]), int(counts[2])
 
 
-def _faces(lines: list[Line]) -> IntArray:
-    corners: list[int] = []
-    counts: list[int] = []
-    for number, words in lines:
-        count = whole(words[0], number, "a face")
-        if not 0 <= count < len(words):
-            raise ShapeFileError(
-                f"line {number} claims a face of {count} corners, but {len(words) - 1} numbers follow."
-            )
-        counts.append(count)
-        corners += [whole(word, number, "a face") for word in words[1 : count + 1]]
-    return fan_triangles(np.array(corners, dtype=np.int64), np.array(counts, dtype=np.int64))
+def _fans(polygons: list[str]) -> tuple[list[str], int]:
+    """The lines of faces as triangles, each polygon a fan around its first corner, and how many there should be."""
+    counts = np.array([int(line.partition(" ")[0]) for line in polygons], dtype=np.int64)
+    check_corner_counts(counts)
+    if (counts == 3).all():
+        return polygons, len(polygons)
+    triangles = []
+    for line, count in zip(polygons, counts, strict=True):
+        corners = line.split()[1 : count + 1]
+        triangles += [f"3 {corners[0]} {second} {third}" for second, third in pairwise(corners[1:])]
+    return triangles, int((counts - 2).sum())

@@ -2,6 +2,9 @@
 
 A field of k > 1 components is stored as properties name_0 to name_{k-1}; on reading, such properties are joined again.
 MeshLab knows one field, by the name "quality", so the first field of one component is written under that name, too.
+
+Read and written here: trimesh refuses binary files that mix triangles with other polygons, takes text that is cut off
+for a smaller shape, and writes coordinates in single precision.
 """
 
 from __future__ import annotations

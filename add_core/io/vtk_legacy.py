@@ -1,6 +1,7 @@
 """Legacy VTK files, ASCII and binary, versions 1 to 5: polygons, or an unstructured grid of polygons.
 
-Read here and not through VTK: on damaged files its reader ends the whole process.
+Read here and not through VTK or PyVista: on damaged files their reader ends the whole process, unsaved work with it;
+trimesh knows no VTK files.
 """
 
 from __future__ import annotations

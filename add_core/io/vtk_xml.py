@@ -1,6 +1,7 @@
 """VTP files: VTK's XML for polygons, with numbers as text, base64 or raw bytes, compressed or not.
 
-Read here and not through VTK: on damaged files its reader ends the whole process.
+Read here and not through VTK or PyVista: on damaged files their reader ends the whole process, unsaved work with it;
+trimesh knows no VTK files.
 """
 
 from __future__ import annotations

@@ -1,4 +1,7 @@
-"""XYZ: one point a line, x y z, perhaps followed by its normal."""
+"""XYZ: one point a line, x y z, perhaps followed by its normal.
+
+Read by NumPy and not by trimesh, which takes normals for colours of 8 bits and knows no comments.
+"""
 
 from __future__ import annotations
 
@@ -8,8 +11,9 @@ import numpy as np
 
 from ..errors import ShapeFileError
 from ..geometry import TriangleMesh
+from .complaints import complaints_about
 from .contents import Fields, FileContents, Shape
-from .text import float_rows, lines_of
+from .text import lines_of
 
 _log = logging.getLogger(__name__)
 
@@ -19,16 +23,14 @@ def read(data: bytes) -> FileContents:
 
     Columns 4 to 6 are normals if each has about unit length, otherwise something else, such as colours, and left out.
     """
-    lines = lines_of(data.replace(b",", b" ").replace(b";", b" "))
+    lines = [" ".join(words) for _, words in lines_of(data.replace(b",", b" ").replace(b";", b" "))]
     if not lines:
         raise ShapeFileError("holds no points.")
-    width = len(lines[0][1])
+    with complaints_about("XYZ"):
+        numbers = np.loadtxt(lines, ndmin=2, comments=None)
+    width = numbers.shape[1]
     if width < 3:
-        raise ShapeFileError(f"line {lines[0][0]} should be a point of 3 numbers, but it has {width}.")
-    for number, words in lines:
-        if len(words) != width:
-            raise ShapeFileError(f"line {number} holds {len(words)} numbers, but the first point has {width}.")
-    numbers = float_rows(lines, width, f"a point of {width} numbers")
+        raise ShapeFileError(f"holds points of {width} numbers, which should be 3.")
     if width >= 6:
         length = np.linalg.norm(numbers[:, 3:6], axis=1)
         if (np.abs(length - 1.0) < 0.1).all():

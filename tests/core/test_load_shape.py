@@ -255,6 +255,58 @@ def test_columns_that_are_no_unit_normals_are_left_out(tmp_path):
     assert load_shape(tmp_path / "a.xyz").normals is None
 
 
+def test_polygons_of_every_size_are_fans_in_off(tmp_path):
+    rows = "0 0 0\n1 0 0\n2 1 0\n1 2 0\n0 2 0\n-1 1 0\n9 9 9\n"
+    (tmp_path / "a.off").write_text(f"OFF\n7 4 0\n{rows}6 0 1 2 3 4 5\n3 0 1 6\n5 0 1 2 3 4\n4 0 1 2 3\n")
+    mesh = load_shape(tmp_path / "a.off")
+    assert mesh.vertex_count == 7
+    assert_array_equal(mesh.faces[:4], [[0, 1, 2], [0, 2, 3], [0, 3, 4], [0, 4, 5]])
+    assert_array_equal(mesh.faces[4:], [[0, 1, 6], [0, 1, 2], [0, 2, 3], [0, 3, 4], [0, 1, 2], [0, 2, 3]])
+
+
+def test_normals_of_an_off_file_of_points_are_kept(tmp_path):
+    (tmp_path / "a.off").write_text("NOFF\n2 0 0\n0 0 0 0 0 1 # up\n1 0 0 0 0.6 -0.8\n")
+    cloud = load_shape(tmp_path / "a.off")
+    assert_array_equal(cloud.points, [[0, 0, 0], [1, 0, 0]])
+    assert_array_equal(cloud.normals, [[0, 0, 1], [0, 0.6, -0.8]])
+
+
+SOLID = """solid a vertex of the solid facet
+facet normal 0 0 1
+outer loop
+vertex 0 0 0
+vertex 1 0 0
+vertex 0.1 1 1e-30
+endloop
+endfacet
+endsolid a vertex of the solid facet
+"""
+
+
+@pytest.mark.parametrize("change", [str, str.upper, lambda text: text.replace("\n", "\r\n")])
+def test_stl_text_keeps_double_precision_and_joins_its_solids(tmp_path, change):
+    (tmp_path / "a.stl").write_text(
+        change(SOLID + SOLID.replace("0 0 0", "1 1 0").replace(" a ", " Größe ")), newline=""
+    )
+    mesh = load_shape(tmp_path / "a.stl")
+    assert_array_equal(mesh.vertices, [[0, 0, 0], [1, 0, 0], [0.1, 1, 1e-30], [1, 1, 0]])
+    assert_array_equal(mesh.faces, [[0, 1, 2], [3, 1, 2]])
+
+
+def test_damaged_normals_in_stl_text_do_not_matter(tmp_path, caplog):
+    (tmp_path / "a.stl").write_text(SOLID.replace("normal 0 0 1", "normal 0 0 none"))
+    assert load_shape(tmp_path / "a.stl").vertex_count == 3
+    assert not caplog.records
+
+
+def test_bytes_after_the_triangles_of_an_stl_file_are_ignored(awkward, tmp_path):
+    path = tmp_path / "a.stl"
+    save_shape(awkward, path)
+    before = load_shape(path)
+    path.write_bytes(b"\xff\0 of a program".ljust(80) + path.read_bytes()[80:] + b"\0\0")
+    assert_array_equal(load_shape(path).vertices, before.vertices)
+
+
 def test_upper_case_extensions_are_the_same(awkward, tmp_path):
     buffer = io.BytesIO()
     np.savez(buffer, vertices=awkward.vertices, faces=awkward.faces)
