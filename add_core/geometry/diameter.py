@@ -52,7 +52,7 @@ def _mesh_pieces(mesh: TriangleMesh) -> list[_Piece]:
     pieces = sorted(
         surface_pieces(mesh), key=lambda piece: -float(np.ptp(piece.positions, axis=0) @ np.ones(3)) * piece.unit
     )
-    return [(piece.positions, piece.edge_lengths, exact_distances(piece)) for piece in pieces[:MOST_PIECES]]
+    return [(piece.positions, piece.path_lengths, exact_distances(piece)) for piece in pieces[:MOST_PIECES]]
 
 
 def _cloud_pieces(cloud: PointCloud) -> list[_Piece]:

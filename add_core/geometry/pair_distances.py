@@ -129,7 +129,8 @@ def _crossings(mesh: TriangleMesh, inner: InnerEdges) -> tuple[IntArray, IntArra
         way = mesh.vertices[corner] - mesh.vertices[a]
         along.append((way * edge).sum(axis=1) / length)
         away.append(np.sqrt(np.maximum((way**2).sum(axis=1) - along[-1] ** 2, 0.0)))
-    meets = along[0] + (along[1] - along[0]) * away[0] / (away[0] + away[1])
+    reach = np.maximum(away[0] + away[1], np.finfo(float).tiny)  # 0 between two faces without area
+    meets = along[0] + (along[1] - along[0]) * away[0] / reach
     inside = (meets >= 0) & (meets <= length) & (left != right)
     across = np.hypot(along[0] - along[1], away[0] + away[1])
     return left[inside], right[inside], across[inside]

@@ -4,13 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
-from scipy.sparse import coo_array, csr_array
+from scipy.sparse import csr_array
 from scipy.sparse.csgraph import connected_components
 
 from .._check import BoolArray, FloatArray, IntArray
 from .mesh import TriangleMesh
+from .pair_distances import edges_and_crossings
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,16 +34,23 @@ class SurfacePiece:
 
     @property
     def is_manifold(self) -> bool:
-        """Whether at most two faces share each edge."""
-        _, counts = np.unique(_sorted_sides(self.faces), axis=0, return_counts=True)
-        return bool((counts <= 2).all())
+        """Whether at most two faces share each edge, and the faces around each node hang together by edges."""
+        sides = _sorted_sides(self.faces)
+        _, edge, counts = np.unique(sides, axis=0, return_inverse=True, return_counts=True)
+        if (counts > 2).any():
+            return False
+        # The corners at one node are joined across the edges that meet there: as many groups of corners as nodes.
+        corner = np.arange(self.faces.size).reshape(-1, 3)[:, [1, 2, 2, 0, 0, 1]].reshape(-1, 2)  # of the sides' ends
+        corner = np.take_along_axis(corner, np.argsort(_sides(self.faces), axis=1), axis=1)
+        order = np.argsort(edge.ravel(), kind="stable")
+        shared = counts[edge.ravel()[order]] == 2
+        pairs = corner[order[shared]].reshape(-1, 2, 2).transpose(0, 2, 1).reshape(-1, 2)
+        return int(_labels(pairs, self.faces.size).max()) + 1 == len(self.positions)
 
-    @property
-    def edge_lengths(self) -> csr_array:
-        """(p, p): upper triangle of edge lengths, in the mesh's own unit."""
-        i, j = np.unique(_sorted_sides(self.faces), axis=0).T
-        length = np.linalg.norm(self.positions[i] - self.positions[j], axis=1) * self.unit
-        return csr_array(coo_array((length, (i, j)), shape=(len(self.positions),) * 2))
+    @cached_property
+    def path_lengths(self) -> csr_array:
+        """(p, p): lengths of edges and of the straight ways across them, in the mesh's own unit; symmetric."""
+        return edges_and_crossings(TriangleMesh(self.positions, self.faces)) * self.unit
 
 
 def surface_pieces(mesh: TriangleMesh) -> Iterator[SurfacePiece]:
@@ -84,5 +93,9 @@ def _labels(pairs: IntArray, count: int) -> IntArray:
     return np.asarray(connected_components(graph, directed=False)[1], dtype=np.int64)
 
 
+def _sides(faces: IntArray) -> IntArray:
+    return faces[:, [1, 2, 2, 0, 0, 1]].reshape(-1, 2)
+
+
 def _sorted_sides(faces: IntArray) -> IntArray:
-    return np.asarray(np.sort(faces[:, [1, 2, 2, 0, 0, 1]].reshape(-1, 2), axis=1))
+    return np.asarray(np.sort(_sides(faces), axis=1))

@@ -5,6 +5,8 @@ import sys
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 from numpy.testing import assert_allclose, assert_array_equal
 
 from add_core.errors import ParameterError
@@ -27,10 +29,10 @@ def test_distances_on_a_sphere_are_angles():
     assert_allclose(geodesic_distances(mesh, [3, 900]), expected, atol=3e-3)
 
 
-def test_the_heat_method_stays_within_its_stated_error():
+def test_paths_along_edges_stay_within_their_stated_error():
     mesh = sphere(4)
     expected = np.arccos(np.clip(mesh.vertices[3] @ mesh.vertices.T, -1, 1))
-    assert_allclose(geodesic_distances(mesh, 3, method="heat")[0], expected, atol=0.04 * np.pi)
+    assert_allclose(geodesic_distances(mesh, 3, method="edges")[0], expected, rtol=0.08)
 
 
 def test_distances_on_a_cloud_follow_the_surface():
@@ -62,7 +64,7 @@ def test_each_source_has_a_row():
 
 
 @pytest.mark.parametrize("unit", [1e-6, 1e6])
-@pytest.mark.parametrize("method", ["exact", "heat"])
+@pytest.mark.parametrize("method", ["exact", "edges"])
 def test_distances_scale_with_the_unit_of_length(unit, method):
     mesh = sphere(2)
     scaled = TriangleMesh(unit * mesh.vertices + unit, mesh.faces)
@@ -70,7 +72,7 @@ def test_distances_scale_with_the_unit_of_length(unit, method):
     assert_allclose(geodesic_distances(scaled, 0, method=method), expected, rtol=1e-9, atol=1e-9 * unit)
 
 
-@pytest.mark.parametrize("method", ["exact", "heat"])
+@pytest.mark.parametrize("method", ["exact", "edges"])
 def test_no_path_leads_to_other_components_and_unreferenced_vertices(method):
     ball = sphere(2)
     vertices = np.vstack([[[9.0, 9.0, 9.0]], ball.vertices, ball.vertices + 5.0])
@@ -110,14 +112,52 @@ def test_defects_that_leave_the_plane_a_plane_leave_its_distances(defect):
     assert_allclose(geodesic_distances(mesh, 3)[0], straight(mesh, 3), atol=1e-9)
 
 
-def test_where_three_faces_share_an_edge_the_heat_method_steps_in():
+def test_where_three_faces_share_an_edge_paths_follow_edges(caplog):
     sheet = rectangle(n=20)
     fin = np.array([[0.5, 0.5, 0.4]])
     mesh = TriangleMesh(np.vstack([sheet.vertices, fin]), np.vstack([sheet.faces, [[220, 221, 441]]]))
     distances = geodesic_distances(mesh, 0)[0]
-    assert np.isfinite(distances).all()
-    assert_allclose(distances[:441], straight(mesh, 0)[:441], atol=0.06)
-    assert_array_equal(distances, geodesic_distances(mesh, 0, method="heat")[0])
+    assert "no manifold" in caplog.text
+    assert_allclose(distances[:441], straight(mesh, 0)[:441], rtol=0.09)
+    assert_array_equal(distances, geodesic_distances(mesh, 0, method="edges")[0])
+
+
+def test_a_path_leads_through_a_vertex_that_alone_joins_two_sheets():
+    sheet = rectangle(n=6).vertices
+    faces = rectangle(n=6).faces
+    other = np.where(faces == 0, 48, faces + 48)  # the second sheet's first corner is the first one's last
+    mesh = TriangleMesh(np.vstack([sheet, sheet[1:] + np.array([1.0, 1.0, 0.0])]), np.vstack([faces, other]))
+    assert_allclose(geodesic_distances(mesh, 0)[0, -1], 2 * np.sqrt(2.0), rtol=0.09)
+
+
+@st.composite
+def ruined_meshes(draw):
+    """Good and bad meshes: faces at random, doubled, turned, left out, of coinciding vertices, flat, in any unit."""
+    rng = np.random.default_rng(draw(st.integers(0, 2**31)))
+    mesh = draw(st.sampled_from([rectangle(n=3), sphere(1)]))
+    vertices, faces = mesh.vertices.copy(), mesh.faces.copy()
+    if draw(st.booleans()):
+        faces[rng.integers(len(faces), size=2)] = rng.integers(0, len(vertices), (2, 3))
+    if draw(st.booleans()):
+        faces = faces[rng.random(len(faces)) < 0.7]
+    if draw(st.booleans()):
+        turned = rng.random(len(faces)) < 0.3
+        faces[turned] = faces[turned][:, ::-1]
+    if draw(st.booleans()):
+        vertices[rng.integers(0, len(vertices), 5)] = vertices[rng.integers(0, len(vertices), 5)]
+    vertices *= draw(st.sampled_from([(1, 1, 1), (1, 1, 0), (1, 1e-9, 0), (1, 0, 0), (0, 0, 0)]))
+    return TriangleMesh(vertices * draw(st.sampled_from([1e-6, 1.0, 1e6])), np.vstack([faces, [[0, 1, 2]]]))
+
+
+@settings(max_examples=200, deadline=None)
+@given(mesh=ruined_meshes())
+def test_any_mesh_has_sound_distances(mesh):
+    exact, along = (geodesic_distances(mesh, [0, 5], method=method) for method in ("exact", "edges"))
+    size = np.ptp(mesh.vertices, axis=0).max()
+    assert_array_equal(np.isfinite(exact), np.isfinite(along))
+    assert (exact <= along + 1e-6 * size).all()
+    for row, source in enumerate([0, 5]):
+        assert (exact[row] >= straight(mesh, source) - 1e-6 * size).all()
 
 
 def test_a_triangle_is_a_mesh_too():
@@ -141,11 +181,11 @@ def test_sources_must_be_vertices(sources, message):
 
 
 def test_an_unknown_method_is_refused():
-    with pytest.raises(ParameterError, match="method must be one of 'exact', 'heat', but it is 'dijkstra'"):
+    with pytest.raises(ParameterError, match="method must be one of 'exact', 'edges', but it is 'dijkstra'"):
         geodesic_distances(sphere(1), 0, method="dijkstra")
 
 
 def test_importing_the_geometry_loads_no_geodesic_library():
-    code = "import sys, add_core.geometry; print([m for m in ('pygeodesic', 'potpourri3d') if m in sys.modules])"
+    code = "import sys, add_core.geometry; print([m for m in sys.modules if 'pygeodesic' in m])"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout.strip() == "[]"
