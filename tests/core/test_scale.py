@@ -34,6 +34,10 @@ def test_a_normalised_shape_has_unit_diameter(shape, unit):
     assert_allclose(ratio, 1 / np.pi, rtol=0.03)
 
 
+def test_many_vertices_are_measured_along_edges():
+    assert geodesic_diameter(rectangle(1.0, 1.2, n=140)) == pytest.approx(np.hypot(1.0, 1.2), rel=0.02)
+
+
 def test_normalising_divides_every_vertex_and_changes_nothing_else():
     mesh = TriangleMesh(rectangle(3.0, 4.0, n=6).vertices + 10.0, rectangle(3.0, 4.0, n=6).faces, "sheet")
     result = normalize(mesh)
