@@ -87,7 +87,7 @@ class SpectraCache:
         return freed
 
     def load(self, key: str) -> Arrays | None:
-        """The arrays of an entry, memory-mapped and read-only, or None if there is none (any more).
+        """The arrays of an entry, each of its shape as kept, memory-mapped and read-only, or None if there is none.
 
         Every byte is checked first. A damaged entry is dropped with a warning.
         """
@@ -137,7 +137,7 @@ class SpectraCache:
     def commit(self, folder: Path, key: str, arrays: Mapping[str, np.ndarray[Any, Any]], label: str) -> Arrays:
         """Let a scratch folder become the entry `key`, `arrays` beside the .npy files that it already holds.
 
-        Returns what `load` would. Raises OSError if the disk fails.
+        arrays : of any shapes, such as eigenvalues (C, K). Returns what `load` would. Raises OSError if the disk fails.
         """
         for name, array in arrays.items():
             np.save(folder / f"{name}.npy", array, allow_pickle=False)

@@ -17,7 +17,7 @@ from scipy.sparse import diags_array
 from scipy.sparse.linalg import eigsh
 from threadpoolctl import threadpool_limits
 
-from add_core.geometry import PointCloud, TriangleMesh
+from add_core.geometry import PointCloud, TriangleMesh, subsample
 from add_core.geometry.shapes import split_in_four
 from add_core.io import humans, poses
 from add_core.operators import AnisotropicLaplacian
@@ -102,6 +102,8 @@ def main() -> None:
     larger = [pose, fine, split_in_four(pose)]
     for mesh in larger:  # rows further down report the largest process so far, which is their own
         print(row(mesh, angles=4, count=300, repeats=1), flush=True)
+    cloud = subsample(person, 4000).cloud
+    print(row(cloud, angles=2, count=900, repeats=1), flush=True)
 
 
 if __name__ == "__main__":
