@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from functools import cache
-from math import atan2, cos, degrees, pi, radians, sin
+from math import atan2, cos, pi, radians, sin
 
 from PySide6.QtCore import QPointF, QRectF, QSize, Qt, Signal
 from PySide6.QtGui import (
@@ -181,8 +181,3 @@ class ThetaDial(QWidget):
 @cache
 def _hue_stops() -> list[tuple[float, QColor]]:
     return [(step / 48, QColor(hex_colour(theta_colour(2 * pi * step / 48)))) for step in range(49)]
-
-
-def theta_text(theta: float) -> str:
-    """ "45" or "12.5": degrees as the field shows them."""
-    return f"{degrees(theta):.4g}"

@@ -10,7 +10,6 @@ from PySide6.QtCore import QPoint, Qt, Signal
 from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent
 from PySide6.QtWidgets import (
     QApplication,
-    QDockWidget,
     QLabel,
     QMainWindow,
     QMenu,
@@ -26,11 +25,12 @@ from add_core import __version__
 from ..models.display import Display
 from ..models.results import Notice, Results
 from ..models.session import Session
+from .context_menu import context_menu
 from .curve_panel import CurvePanel
-from .dock_title import DockTitle
 from .icons import icon
 from .menus import Menus
 from .message_bar import MessageBar
+from .panels import Panels
 from .parameter_panel import ParameterPanel
 from .settings import Settings
 from .shape_view import IDLE_TEXT, ShapeView
@@ -63,8 +63,7 @@ class MainWindow(QMainWindow):
         self.message = MessageBar()
         self.parameters = ParameterPanel(session, results)
         self.curves = CurvePanel(session, results, display)
-        self._hidden_docks: list[QDockWidget] | None = None
-        self._titles: list[DockTitle] = []
+        self.panels = Panels(self, self.menus.docks)
         self._build()
         self._connect()
         self._show_theme()
@@ -92,23 +91,14 @@ class MainWindow(QMainWindow):
         scroll.setWidgetResizable(True)
         scroll.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         self.setCorner(Qt.Corner.BottomLeftCorner, Qt.DockWidgetArea.LeftDockWidgetArea)
-        self.parameter_dock = self._dock("Diffusion", scroll, Qt.DockWidgetArea.LeftDockWidgetArea)
-        self.curve_dock = self._dock("Curves at the picked points", self.curves, Qt.DockWidgetArea.BottomDockWidgetArea)
+        self.parameter_dock = self.panels.add("Diffusion", scroll, Qt.DockWidgetArea.LeftDockWidgetArea)
+        self.curve_dock = self.panels.add(
+            "Curves at the picked points", self.curves, Qt.DockWidgetArea.BottomDockWidgetArea
+        )
         self.parameter_dock.setMinimumWidth(37 * GRID)
         self.resizeDocks([self.parameter_dock], [38 * GRID], Qt.Orientation.Horizontal)
         self.resizeDocks([self.curve_dock], [30 * GRID], Qt.Orientation.Vertical)
         self._build_status()
-
-    def _dock(self, title: str, widget: QWidget, area: Qt.DockWidgetArea) -> QDockWidget:
-        dock = QDockWidget(title, self)
-        dock.setObjectName(title)
-        dock.setWidget(widget)
-        title_bar = DockTitle(dock)
-        dock.setTitleBarWidget(title_bar)
-        self._titles.append(title_bar)
-        self.addDockWidget(area, dock)
-        self.menus.docks.addAction(dock.toggleViewAction())
-        return dock
 
     def _build_status(self) -> None:
         self.hover_label, self.busy_label, self.progress = QLabel(), QLabel(), QProgressBar()
@@ -161,26 +151,14 @@ class MainWindow(QMainWindow):
         for name in ("close", "screenshot", "go_to", "fit", "play", "front", "back", "left", "right", "top"):
             self.menus.actions[name].setEnabled(shape is not None)
         self.hover_label.setText("" if shape is None else IDLE_TEXT)
-        self._show_docks(shape is not None and self.pages.currentWidget() is self.view)
-
-    def _show_docks(self, on: bool) -> None:
-        """The panels belong to a shape: the start page does without, and they come back as they were."""
-        if on and self._hidden_docks is not None:
-            for dock in self._hidden_docks:
-                dock.show()
-            self._hidden_docks = None
-        elif not on and self._hidden_docks is None:
-            docks = (self.parameter_dock, self.curve_dock)
-            self._hidden_docks = [dock for dock in docks if not dock.isHidden()]
-            for dock in docks:
-                dock.hide()
+        self.panels.show(shape is not None and self.pages.currentWidget() is self.view)
 
     def show_start(self) -> None:
         """Offer shapes to open; the session stays as it is."""
         shape = self.session.state.active
         self.start.show_way_back(None if shape is None else shape.name)
         self.pages.setCurrentWidget(self.start)
-        self._show_docks(False)
+        self.panels.show(False)
 
     def _show_history(self) -> None:
         picks = self.session.state.active_picks
@@ -208,15 +186,7 @@ class MainWindow(QMainWindow):
         theme = theme_of(self.display["theme"])
         apply_theme(theme)
         self.setWindowIcon(icon("mdi6.blur-radial", theme.accent))
-        parts: list[Any] = [
-            self.menus,
-            self.view,
-            self.start,
-            self.message,
-            self.parameters,
-            self.curves,
-            *self._titles,
-        ]
+        parts: list[Any] = [self.menus, self.view, self.start, self.message, self.parameters, self.curves, self.panels]
         for part in parts:
             part.show_theme(theme)
 
@@ -270,29 +240,11 @@ class MainWindow(QMainWindow):
             self.session.close_shape(self.session.state.active_key)
 
     def _show_context_menu(self, place: QPoint, vertex: int) -> None:
-        menu = self.context_menu(vertex)
-        menu.popup(place)
+        self.context_menu(vertex).popup(place)
 
     def context_menu(self, vertex: int) -> QMenu:
         """What makes sense at `vertex`, or beside the shape (-1)."""
-        menu = QMenu(self)
-        menu.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        session, shape = self.session, self.session.state.active
-        if vertex >= 0 and shape is not None:
-            picked = any(pick.vertex == vertex for pick in session.state.active_picks)
-            menu.addAction(f"Drop heat on vertex {vertex}").triggered.connect(lambda: session.pick(vertex))
-            if picked:
-                menu.addAction("Remove this point").triggered.connect(lambda: session.unpick(vertex))
-            else:
-                menu.addAction("Add this point").triggered.connect(lambda: session.pick(vertex, add=True))
-            if shape.mirror(vertex) is not None:
-                menu.addAction("Add its mirror point").triggered.connect(lambda: session.pick_mirror(vertex))
-            copy = menu.addAction(f"Copy the number {vertex}")
-            copy.triggered.connect(lambda: QApplication.clipboard().setText(str(vertex)))
-            menu.addSeparator()
-        for name in ("fit", "front", "arrows", "wireframe", "clear", "screenshot"):
-            menu.addAction(self.menus.actions[name])
-        return menu
+        return context_menu(self, self.session, self.menus.actions, vertex)
 
     def dragEnterEvent(self, event: QDragEnterEvent) -> None:
         if any(url.isLocalFile() for url in event.mimeData().urls()):
@@ -306,7 +258,7 @@ class MainWindow(QMainWindow):
 
     def closeEvent(self, event: QCloseEvent) -> None:
         self.parameters.play.setChecked(False)
-        self._show_docks(True)
+        self.panels.show(True)
         self.settings.keep_window(self)
         self.view.canvas.close()  # VTK must let go of the graphics context while it still exists
         super().closeEvent(event)

@@ -11,7 +11,7 @@ from ..models.diffusion import ALPHA_MAX, REACH_MAX, REACH_MIN, Diffusion
 from ..models.results import Results
 from ..models.scales import BrokenLine, Logarithm
 from ..models.session import Session
-from .dial import ThetaDial, theta_text
+from .dial import ThetaDial
 from .icons import icon
 from .number_field import NumberField
 from .pick_list import PickList
@@ -43,7 +43,7 @@ class ParameterPanel(QWidget):
         self.shape, self.model = QComboBox(), QComboBox()
         self.alpha, self.time = _alpha_row(), _time_row()
         self.dial = ThetaDial()
-        self.theta = NumberField(show_as=theta_text_of_degrees, step=lambda value, step: value + step)
+        self.theta = NumberField(show_as=lambda value: f"{value:.4g}", step=lambda value, step: value + step)
         self.play = QPushButton("Play")
         self.picks = PickList(session)
         self.scale_note = QLabel()
@@ -176,10 +176,6 @@ class Player(QTimer):
     def _turn(self) -> None:
         step = PLAY_SPEED * min(self._clock.restart(), 200) / 1000.0
         self._session.diffuse(theta=(self._session.state.diffusion.theta + step) % pi)
-
-
-def theta_text_of_degrees(value: float) -> str:
-    return theta_text(radians(value))
 
 
 def _alpha_row() -> SliderRow:

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QColor, QGuiApplication, QPalette, QPen
 from PySide6.QtWidgets import QApplication
+
+from .style_sheet import STYLE_SHEET
 
 GRID = 8
 """Every distance in the window is a multiple of this, or half of it, in device-independent pixels."""
@@ -80,7 +82,7 @@ def apply_theme(theme: Theme) -> None:
     assert isinstance(app, QApplication)
     app.setStyle("Fusion")
     app.setPalette(_palette(theme))
-    app.setStyleSheet(_style_sheet(theme))
+    app.setStyleSheet(STYLE_SHEET.substitute(asdict(theme)))
 
 
 def round_pen(colour: QColor, width: float) -> QPen:
@@ -108,54 +110,3 @@ def _palette(theme: Theme) -> QPalette:
         faded.setAlpha(140)
         palette.setColor(QPalette.ColorGroup.Disabled, each, faded)
     return palette
-
-
-def _style_sheet(theme: Theme) -> str:
-    return f"""
-QMainWindow::separator {{ background: {theme.line}; width: 1px; height: 1px; }}
-DockTitle {{ border-bottom: 1px solid {theme.line}; }}
-QMenuBar {{ background: {theme.window}; padding: 2px 4px; border-bottom: 1px solid {theme.line}; }}
-QMenuBar::item {{ padding: 4px 8px; border-radius: 4px; background: transparent; }}
-QMenuBar::item:selected, QMenu::item:selected {{ background: {theme.accent}; color: {theme.on_accent}; }}
-QMenu {{ background: {theme.panel}; border: 1px solid {theme.line}; padding: 4px; }}
-QMenu::item {{ padding: 5px 28px 5px 24px; border-radius: 4px; }}
-QMenu::item:disabled {{ color: {theme.muted}; }}
-QMenu::icon:checked {{ border: 1px solid {theme.accent}; border-radius: 3px; padding: 2px; }}
-QDialogButtonBox {{ dialogbuttonbox-buttons-have-icons: 0; }}
-QCheckBox {{ spacing: 8px; }}
-QCheckBox::indicator {{ width: 12px; height: 12px; border: 1px solid {theme.muted}; border-radius: 3px;
-    background: {theme.field}; }}
-QCheckBox::indicator:checked {{ background: {theme.accent}; border-color: {theme.accent}; }}
-QMenu::separator {{ height: 1px; background: {theme.line}; margin: 4px 8px; }}
-QStatusBar {{ background: {theme.window}; border-top: 1px solid {theme.line}; }}
-QStatusBar QLabel {{ color: {theme.muted}; padding: 0 8px; }}
-QStatusBar::item {{ border: none; }}
-QLineEdit {{ background: {theme.field}; border: 1px solid {theme.line}; border-radius: 4px; padding: 3px 6px;
-    min-height: 18px; selection-background-color: {theme.accent}; selection-color: {theme.on_accent}; }}
-QLineEdit:focus {{ border: 1px solid {theme.accent}; }}
-QComboBox {{ min-height: 22px; }}
-QPushButton, QToolButton {{ background: {theme.panel}; border: 1px solid {theme.line}; border-radius: 4px;
-    padding: 4px 10px; min-height: 18px; }}
-QToolButton {{ padding: 4px; }}
-QToolButton:disabled, QPushButton:disabled {{ color: {theme.muted}; }}
-QToolButton[quiet="true"] {{ border: 1px solid transparent; background: transparent; }}
-QPushButton:hover, QToolButton:hover {{ border-color: {theme.muted}; }}
-QPushButton:pressed, QToolButton:pressed, QToolButton:checked, QPushButton:checked {{ border-color: {theme.accent};
-    color: {theme.accent}; }}
-QPushButton:focus, QToolButton:focus {{ border-color: {theme.accent}; }}
-QPushButton[primary="true"] {{ background: {theme.accent}; color: {theme.on_accent}; border-color: {theme.accent};
-    font-weight: 600; padding: 6px 16px; }}
-QToolTip {{ background: {theme.panel}; color: {theme.text}; border: 1px solid {theme.line}; padding: 4px; }}
-QLabel[role="muted"] {{ color: {theme.muted}; }}
-QLabel[role="heading"] {{ font-weight: 600; }}
-QScrollArea, QListView {{ border: none; background: transparent; }}
-QScrollBar {{ background: transparent; border: none; margin: 0; }}
-QScrollBar:vertical {{ width: 10px; }}
-QScrollBar:horizontal {{ height: 10px; }}
-QScrollBar::handle {{ background: {theme.line}; border-radius: 4px; margin: 1px; min-height: 32px; min-width: 32px; }}
-QScrollBar::handle:hover {{ background: {theme.muted}; }}
-QScrollBar::add-line, QScrollBar::sub-line {{ width: 0; height: 0; }}
-QScrollBar::add-page, QScrollBar::sub-page {{ background: transparent; }}
-QProgressBar {{ border: none; border-radius: 2px; background: {theme.line}; max-height: 4px; }}
-QProgressBar::chunk {{ background: {theme.accent}; border-radius: 2px; }}
-"""

@@ -2,17 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from contextlib import contextmanager
-
 import numpy as np
 import pyvista as pv
 from numpy.typing import NDArray
 from PySide6.QtCore import QEvent, QPoint, QPointF, Qt, Signal
 from PySide6.QtGui import QImage, QMouseEvent, QResizeEvent, QWheelEvent
 from PySide6.QtWidgets import QApplication
-from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkRenderingCore import vtkWindowToImageFilter
 
 from ...models.picks import Pick
 from ...models.results import DirectionField
@@ -21,6 +16,7 @@ from ..theme import LIGHT, Theme
 from .camera import VIEW_ANGLE, OrbitCamera
 from .marks import Needles, marker_actors
 from .picker import POINT_REACH, CloudPicker
+from .picture import take_picture
 from .surface import Surface
 from .view3d import View3D
 
@@ -265,49 +261,9 @@ class Canvas(View3D):
         """The scene alone at `scale` times the widget's size in device-independent pixels."""
         self.grabFramebuffer()  # a hidden or stale widget paints first
         factor = max(1, round(scale / self.devicePixelRatioF()))
-        with self._fine_render(transparent=transparent):
-            pixels = self._read_pixels(factor)
-        height, width, _ = pixels.shape
-        image = QImage(pixels.data, width, height, 4 * width, QImage.Format.Format_RGBA8888_Premultiplied)
-        return image.convertToFormat(QImage.Format.Format_ARGB32)
-
-    @contextmanager
-    def _fine_render(self, *, transparent: bool) -> Iterator[None]:
-        """Smooth edges from many samples, too slow for live pictures; transparent is black, as premultiplied needs."""
-        renderer, window = self.renderer, self.render_window
-        kept = renderer.GetBackground(), renderer.GetGradientBackground(), window.GetMultiSamples()
-        window.SetMultiSamples(8)
-        window.SetAlphaBitPlanes(1)
-        if transparent:
-            renderer.SetGradientBackground(False)
-            renderer.SetBackground(0.0, 0.0, 0.0)
-            renderer.SetBackgroundAlpha(0.0)
-        else:
-            renderer.SetBackgroundAlpha(1.0)
-        self._Iren.EnableRenderOn()
-        try:
-            yield
-        finally:
-            self._Iren.EnableRenderOff()
-            renderer.SetBackground(kept[0])
-            renderer.SetGradientBackground(kept[1])
-            renderer.SetBackgroundAlpha(1.0)
-            window.SetMultiSamples(kept[2])
-            self.update()
-
-    def _read_pixels(self, factor: int) -> NDArray[np.uint8]:
-        """(height, width, 4) of a fresh render, `factor` times as fine as the widget."""
-        self.render_window.MakeCurrent()
-        grab = vtkWindowToImageFilter()
-        grab.SetInput(self.render_window)
-        grab.SetScale(factor)
-        grab.SetInputBufferTypeToRGBA()
-        grab.ReadFrontBufferOff()
-        grab.Update()
-        image = grab.GetOutput()
-        width, height, _ = image.GetDimensions()
-        pixels = vtk_to_numpy(image.GetPointData().GetScalars()).reshape(height, width, 4)
-        return np.ascontiguousarray(pixels[::-1])
+        image = take_picture(self, factor, transparent=transparent)
+        self.update()
+        return image
 
     def _remove(self, actors: list[pv.Actor]) -> None:
         for actor in actors:

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import Any
 
 os.environ.setdefault("QT_API", "pyside6")
@@ -52,11 +54,17 @@ class View3D(QtInteractor):  # type: ignore[misc]
         iren: Any = self.__dict__.get("_Iren")
         if getattr(self, "_closed", False) or not hasattr(iren, "EnableRenderOn"):
             return
-        iren.EnableRenderOn()
-        try:
+        with self.rendering_at_once():
             super().paintGL()
+
+    @contextmanager
+    def rendering_at_once(self) -> Iterator[None]:
+        """Within, VTK's requests to render are carried out and not left to the next paint."""
+        self._Iren.EnableRenderOn()
+        try:
+            yield
         finally:
-            iren.EnableRenderOff()
+            self._Iren.EnableRenderOff()
 
     # What QtInteractor would do with these events belongs to the window: propagate.
 

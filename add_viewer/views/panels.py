@@ -1,0 +1,48 @@
+"""The panels around the view: they float, close, and come back from the View menu."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QDockWidget, QMainWindow, QMenu, QWidget
+
+from .dock_title import DockTitle
+from .theme import Theme
+
+
+class Panels:
+    """Docks of a window. They belong to a shape: where none is shown they hide together."""
+
+    def __init__(self, window: QMainWindow, menu: QMenu) -> None:
+        self._window, self._menu = window, menu
+        self._docks: list[QDockWidget] = []
+        self._titles: list[DockTitle] = []
+        self._hidden: list[QDockWidget] | None = None
+
+    def add(self, title: str, widget: QWidget, area: Qt.DockWidgetArea) -> QDockWidget:
+        """A new panel on one side of the window."""
+        dock = QDockWidget(title, self._window)
+        dock.setObjectName(title)
+        dock.setWidget(widget)
+        title_bar = DockTitle(dock)
+        dock.setTitleBarWidget(title_bar)
+        self._window.addDockWidget(area, dock)
+        self._menu.addAction(dock.toggleViewAction())
+        self._docks.append(dock)
+        self._titles.append(title_bar)
+        return dock
+
+    def show(self, on: bool) -> None:
+        """Hide all panels, or bring those back that were open."""
+        if on and self._hidden is not None:
+            for dock in self._hidden:
+                dock.show()
+            self._hidden = None
+        elif not on and self._hidden is None:
+            self._hidden = [dock for dock in self._docks if not dock.isHidden()]
+            for dock in self._docks:
+                dock.hide()
+
+    def show_theme(self, theme: Theme) -> None:
+        """Buttons in the theme's colours."""
+        for title in self._titles:
+            title.show_theme(theme)

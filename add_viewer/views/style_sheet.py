@@ -1,0 +1,54 @@
+"""The style sheet of every window: $names stand for the colours of the theme."""
+
+from __future__ import annotations
+
+from string import Template
+
+STYLE_SHEET = Template("""
+QMainWindow::separator { background: $line; width: 1px; height: 1px; }
+DockTitle { border-bottom: 1px solid $line; }
+QMenuBar { background: $window; padding: 2px 4px; border-bottom: 1px solid $line; }
+QMenuBar::item { padding: 4px 8px; border-radius: 4px; background: transparent; }
+QMenuBar::item:selected, QMenu::item:selected { background: $accent; color: $on_accent; }
+QMenu { background: $panel; border: 1px solid $line; padding: 4px; }
+QMenu::item { padding: 5px 28px 5px 24px; border-radius: 4px; }
+QMenu::item:disabled { color: $muted; }
+QMenu::icon:checked { border: 1px solid $accent; border-radius: 3px; padding: 2px; }
+QDialogButtonBox { dialogbuttonbox-buttons-have-icons: 0; }
+QCheckBox { spacing: 8px; }
+QCheckBox::indicator { width: 12px; height: 12px; border: 1px solid $muted; border-radius: 3px;
+    background: $field; }
+QCheckBox::indicator:checked { background: $accent; border-color: $accent; }
+QMenu::separator { height: 1px; background: $line; margin: 4px 8px; }
+QStatusBar { background: $window; border-top: 1px solid $line; }
+QStatusBar QLabel { color: $muted; padding: 0 8px; }
+QStatusBar::item { border: none; }
+QLineEdit { background: $field; border: 1px solid $line; border-radius: 4px; padding: 3px 6px;
+    min-height: 18px; selection-background-color: $accent; selection-color: $on_accent; }
+QLineEdit:focus { border: 1px solid $accent; }
+QComboBox { min-height: 22px; }
+QPushButton, QToolButton { background: $panel; border: 1px solid $line; border-radius: 4px;
+    padding: 4px 10px; min-height: 18px; }
+QToolButton { padding: 4px; }
+QToolButton:disabled, QPushButton:disabled { color: $muted; }
+QToolButton[quiet="true"] { border: 1px solid transparent; background: transparent; }
+QPushButton:hover, QToolButton:hover { border-color: $muted; }
+QPushButton:pressed, QToolButton:pressed, QToolButton:checked, QPushButton:checked { border-color: $accent;
+    color: $accent; }
+QPushButton:focus, QToolButton:focus { border-color: $accent; }
+QPushButton[primary="true"] { background: $accent; color: $on_accent; border-color: $accent;
+    font-weight: 600; padding: 6px 16px; }
+QToolTip { background: $panel; color: $text; border: 1px solid $line; padding: 4px; }
+QLabel[role="muted"] { color: $muted; }
+QLabel[role="heading"] { font-weight: 600; }
+QScrollArea, QListView { border: none; background: transparent; }
+QScrollBar { background: transparent; border: none; margin: 0; }
+QScrollBar:vertical { width: 10px; }
+QScrollBar:horizontal { height: 10px; }
+QScrollBar::handle { background: $line; border-radius: 4px; margin: 1px; min-height: 32px; min-width: 32px; }
+QScrollBar::handle:hover { background: $muted; }
+QScrollBar::add-line, QScrollBar::sub-line { width: 0; height: 0; }
+QScrollBar::add-page, QScrollBar::sub-page { background: transparent; }
+QProgressBar { border: none; border-radius: 2px; background: $line; max-height: 4px; }
+QProgressBar::chunk { background: $accent; border-radius: 2px; }
+""")
