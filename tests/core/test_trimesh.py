@@ -92,16 +92,31 @@ def test_gltf_is_visited_backwards():
     assert [name for name in loaded.graph.nodes if name != "world"] == ["2", "1", "0"]
 
 
-def test_gltf_takes_coordinates_stored_as_differences_for_zeros():
+def _meshes_of_glb(change) -> list[trimesh.Trimesh]:
+    """What trimesh finds in a triangle's GLB file, after `change` of its description."""
     data = export_glb(trimesh.Scene(trimesh.Trimesh(np.eye(3), [[0, 1, 2]], process=False)))
     size = int.from_bytes(data[12:16], "little")
     tree = json.loads(data[20 : 20 + size])
-    position = tree["accessors"][tree["meshes"][0]["primitives"][0]["attributes"]["POSITION"]]
-    position["sparse"] = {"count": 3}
-    del position["bufferView"]
+    change(tree)
     text = json.dumps(tree).encode()
     text += b" " * (-len(text) % 4)
     body = struct.pack("<I4s", len(text), b"JSON") + text + data[20 + size :]
-    spoiled = struct.pack("<4sII", b"glTF", 2, 12 + len(body)) + body
-    (mesh,) = trimesh.load_scene(io.BytesIO(spoiled), file_type="glb", process=False).geometry.values()
+    changed = struct.pack("<4sII", b"glTF", 2, 12 + len(body)) + body
+    return list(trimesh.load_scene(io.BytesIO(changed), file_type="glb", process=False).geometry.values())
+
+
+def test_gltf_takes_coordinates_stored_as_differences_for_zeros():
+    def store_differences(tree):
+        position = tree["accessors"][tree["meshes"][0]["primitives"][0]["attributes"]["POSITION"]]
+        position["sparse"] = {"count": 3}
+        del position["bufferView"]
+
+    (mesh,) = _meshes_of_glb(store_differences)
     assert_array_equal(mesh.vertices, np.zeros((3, 3)))
+
+
+def test_gltf_repeats_vertices_that_two_materials_share():
+    def divide(tree):
+        tree["meshes"][0]["primitives"] *= 2
+
+    assert [len(mesh.vertices) for mesh in _meshes_of_glb(divide)] == [3, 3]
