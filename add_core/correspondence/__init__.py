@@ -3,20 +3,27 @@
 from .functional_equations import Weights
 from .functional_map import FunctionalMap
 from .icp import icp
+from .mirror import MirrorSymmetry, mirror_symmetry
 from .nearest import MutualMatches, mutual_matches, nearest_matches
 from .orientation import preserved_orientation
 from .symmetry import IntrinsicSymmetry, intrinsic_symmetry
+from .transfer import TransferredColors, coordinate_colors, transfer_colors
 from .zoomout import zoomout
 
 __all__ = [
     "FunctionalMap",
     "IntrinsicSymmetry",
+    "MirrorSymmetry",
     "MutualMatches",
+    "TransferredColors",
     "Weights",
+    "coordinate_colors",
     "icp",
     "intrinsic_symmetry",
+    "mirror_symmetry",
     "mutual_matches",
     "nearest_matches",
     "preserved_orientation",
+    "transfer_colors",
     "zoomout",
 ]

@@ -7,7 +7,9 @@ from numpy.typing import ArrayLike
 from scipy.sparse import csr_array
 
 from .._check import FloatArray, IntArray, index_array
-from ..geometry import TriangleMesh
+from ..geometry import PointCloud, TriangleMesh
+from ..geometry.neighbours import nearest_neighbours
+from ..geometry.normals import estimate_normals
 from ..spectra import Spectrum
 
 
@@ -50,21 +52,49 @@ def orientation_operators(
     return pairs
 
 
-def preserved_orientation(mesh_2: TriangleMesh, mesh_1: TriangleMesh, match_21: ArrayLike) -> float:
+def preserved_orientation(
+    shape_2: TriangleMesh | PointCloud, shape_1: TriangleMesh | PointCloud, match_21: ArrayLike
+) -> float:
     """Share of shape 2's area whose faces a map of points lays down on shape 1 facing outward: 1 for a map that keeps
     orientation, 0 for a mirror image.
 
-    match_21 : (n2,), the vertex of mesh_1 for each of mesh_2. Faces that collapse say nothing and are left out.
+    match_21 : (n2,), the vertex of shape_1 for each of shape_2. On a cloud, triangles of neighbouring points stand in
+        for faces, each counting alike. Faces that collapse say nothing and are left out.
     """
-    match = index_array("match_21", match_21, mesh_1.vertex_count, count=mesh_2.vertex_count)
-    return orientation_kept(mesh_1, mesh_2.faces, match[mesh_2.faces], mesh_2.face_areas)
+    match = index_array("match_21", match_21, shape_1.vertex_count, count=shape_2.vertex_count)
+    faces = outward_triangles(shape_2)
+    weights = shape_2.face_areas if isinstance(shape_2, TriangleMesh) else np.ones(len(faces))
+    return orientation_kept(shape_1, match[faces], weights)
 
 
-def orientation_kept(mesh: TriangleMesh, faces: IntArray, images: IntArray, weights: FloatArray | None = None) -> float:
-    """Share of `faces` (m, 3) whose images, (m, 3) vertices of `mesh`, face outward there, by `weights` (m,)."""
-    places, normals = mesh.vertices[images], mesh.vertex_normals[images].sum(axis=1)
+def outward_triangles(shape: TriangleMesh | PointCloud) -> IntArray:
+    """(m, 3), counter-clockwise from outside: a mesh's faces; a triangle of neighbouring points around each of a
+    cloud."""
+    if isinstance(shape, TriangleMesh):
+        return shape.faces
+    points, normals = shape.points, outward_normals(shape)
+    near = nearest_neighbours(points, 8).indices
+    one = near[:, 0]
+    ways = points[near] - points[:, None, :]
+    across = np.cross(ways[:, :1], ways)  # (n, 8, 3): twice the area vectors of the triangles to be chosen from
+    chosen = np.linalg.norm(across, axis=2).argmax(axis=1)
+    row = np.arange(len(points))
+    outward = (across[row, chosen] * normals).sum(axis=1) > 0
+    other = near[row, chosen]
+    return np.stack([row, np.where(outward, one, other), np.where(outward, other, one)], axis=1)
+
+
+def outward_normals(shape: TriangleMesh | PointCloud) -> FloatArray:
+    """(n, 3): vertex normals of a mesh, or a cloud's own, or estimated ones."""
+    if isinstance(shape, TriangleMesh):
+        return shape.vertex_normals
+    return shape.normals if shape.normals is not None else estimate_normals(shape.points)
+
+
+def orientation_kept(shape: TriangleMesh | PointCloud, images: IntArray, weights: FloatArray) -> float:
+    """Share of triangles, by `weights` (m,), whose images (m, 3), vertices of `shape`, face outward there."""
+    places, normals = shape.vertices[images], outward_normals(shape)[images].sum(axis=1)
     laid = np.cross(places[:, 1] - places[:, 0], places[:, 2] - places[:, 0])
     facing = (laid * normals).sum(axis=1)
-    clear = np.abs(facing) > 1e-12 * np.linalg.norm(laid, axis=1)
-    weight = clear * (np.ones(len(faces)) if weights is None else weights)
+    weight = weights * (np.abs(facing) > 1e-12 * np.linalg.norm(laid, axis=1))
     return float((weight * (facing > 0)).sum() / weight.sum()) if weight.sum() > 0 else 0.5

@@ -1,0 +1,118 @@
+"""Symmetries of shapes that have one by construction, posed or not, and of shapes that have none."""
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose, assert_array_equal
+from scipy.spatial.distance import cdist
+
+from add_core.correspondence import intrinsic_symmetry, mirror_symmetry, preserved_orientation
+from add_core.correspondence.involution import nearest_involution
+from add_core.errors import ParameterError
+from add_core.geometry import PointCloud, TriangleMesh, geodesic_diameter, normalize
+from add_core.geometry.pair_distances import PairDistances
+from add_core.geometry.shapes import sphere
+from add_core.io import humans
+from add_core.spectra import compute_spectra
+
+BALL = sphere(3)
+MIRROR = cdist(BALL.vertices * [-1, 1, 1], BALL.vertices).argmin(axis=1)
+
+
+def creature(*, arms=(0.9, 0.9), bend=0.0):
+    """A body with two arms to the sides of x = 0, a head and a nose; `bend` turns it over its length, arms and all."""
+    directions = np.array([[0.8, 0.1, 0.6], [-0.8, 0.1, 0.6], [0, 0, 1.0], [0, 1.0, 0.3], [0, -0.3, -1.0]])
+    sizes = np.array([*arms, 0.7, 0.5, 0.9])
+    directions /= np.linalg.norm(directions, axis=1, keepdims=True)
+    growth = 1 + np.exp(-14 * (1 - BALL.vertices @ directions.T)) @ sizes
+    x, y, z = (BALL.vertices * growth[:, None] * [0.8, 0.6, 1.2]).T
+    angle = bend * x
+    return TriangleMesh(
+        np.stack([x, np.cos(angle) * y - np.sin(angle) * z, np.sin(angle) * y + np.cos(angle) * z], axis=1), BALL.faces
+    )
+
+
+def spectra_of(shape, count=60):
+    return compute_spectra(normalize(shape), alphas=(0.0, 50.0), angles=8, count=count, workers=1, cache=False)
+
+
+def test_the_mirror_image_of_every_point_is_found():
+    shape = creature()
+    found = intrinsic_symmetry(shape, family=spectra_of(shape))
+    assert found.found, found.reason
+    error = PairDistances(shape)(found.eta, MIRROR) / geodesic_diameter(shape)
+    assert error.mean() < 0.01
+    assert preserved_orientation(shape, shape, found.eta) < 0.1
+    assert 0 < found.confidence <= 1
+    assert found.field.mean() > 0.9
+    assert found.unmoved < 0.3
+
+
+def test_the_mirror_image_of_a_person_in_a_pose_is_found():
+    collection = humans()
+    person = collection[97]
+    assert not mirror_symmetry(person, tolerance=0.01).found
+    found = intrinsic_symmetry(person, family=spectra_of(person, 80))
+    assert found.found, found.reason
+    error = PairDistances(person)(found.eta, collection.symmetry) / geodesic_diameter(person)
+    assert error.mean() < 0.03
+
+
+def test_a_longer_arm_leaves_no_symmetry():
+    shape = creature(arms=(0.4, 1.6))
+    found = intrinsic_symmetry(shape, family=spectra_of(shape))
+    assert not found.found
+    assert found.eta is None
+    assert found.confidence == 0
+    assert found.candidate.shape == (642,)
+    assert "The best map" in found.reason
+
+
+def test_one_orientation_for_both_sides_is_needed():
+    shape = creature()
+    family = spectra_of(shape)
+    with pytest.raises(ParameterError, match="family must hold α = 0"):
+        intrinsic_symmetry(shape, family=compute_spectra(shape, alphas=(50.0,), angles=4, count=20, cache=False))
+    lopsided = type(family)(
+        family.alphas[:3], family.thetas[:3], family.eigenvalues[:3], family.eigenfunctions[:3], family.mass
+    )
+    with pytest.raises(ParameterError, match=r"family must hold the angle π − 0\.3927 for α = 50"):
+        intrinsic_symmetry(shape, family=lopsided)
+
+
+def test_the_nearest_involution_is_its_own_inverse_and_a_fixed_point():
+    matrix = np.random.default_rng(0).normal(size=(7, 7))
+    found = nearest_involution(matrix)
+    assert_allclose(found @ found, np.eye(7), atol=1e-12)
+    assert_allclose(found, found.T, atol=1e-12)
+    assert_allclose(nearest_involution(found), found, atol=1e-12)
+    others = [nearest_involution(np.random.default_rng(seed).normal(size=(7, 7))) for seed in range(1, 30)]
+    assert all(np.linalg.norm(matrix - found) <= np.linalg.norm(matrix - other) for other in others)
+
+
+@pytest.mark.parametrize("kind", ["mesh", "cloud"])
+def test_the_plane_of_a_neutral_pose_is_found_wherever_it_lies(kind):
+    shape = creature()
+    turn = np.linalg.qr(np.random.default_rng(2).normal(size=(3, 3)))[0]
+    places = 3.0 * shape.vertices @ turn.T + [5.0, -2.0, 7.0]
+    placed = TriangleMesh(places, shape.faces) if kind == "mesh" else PointCloud(places)
+    found = mirror_symmetry(placed)
+    assert found.found
+    assert_array_equal(found.eta, MIRROR)
+    assert abs(found.normal @ turn[:, 0]) == pytest.approx(1.0, abs=1e-6)
+    assert found.offset == pytest.approx(found.normal @ [5.0, -2.0, 7.0], abs=1e-5)
+    assert found.residual < 1e-6
+
+
+def test_a_cloud_without_paired_points_still_has_its_plane():
+    random = np.random.default_rng(3)
+    points = random.normal(size=(3000, 3)) * [1.0, 2.0, 3.0] + random.exponential(size=(3000, 1)) * [0, 1.0, 1.0]
+    found = mirror_symmetry(PointCloud(points), tolerance=0.1)
+    assert found.found
+    assert abs(found.normal[0]) > 0.99
+
+
+def test_a_bent_shape_has_no_mirror_plane():
+    found = mirror_symmetry(creature(arms=(0.3, 2.0), bend=0.9))
+    assert not found.found
+    assert found.eta is None
+    assert found.residual > 0.03
