@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from contextlib import contextmanager
 
-from ..errors import ShapeFileError
+from ..errors import AddError, ShapeFileError
 
 
 @contextmanager
@@ -13,7 +13,7 @@ def complaints_about(kind: str) -> Iterator[None]:
     """Raise ShapeFileError with the reason in one line, whatever a library raises while it reads a file of `kind`."""
     try:
         yield
-    except ShapeFileError:
+    except AddError:
         raise
     except Exception as error:
         reason = "rows of different length" if "inhomogeneous" in str(error) else str(error).partition(";")[0]

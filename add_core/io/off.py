@@ -13,6 +13,7 @@ from itertools import pairwise
 
 import numpy as np
 
+from .._check import faces_array
 from ..errors import ShapeFileError
 from ..geometry import PointCloud
 from .complaints import complaints_about
@@ -44,6 +45,8 @@ def read(data: bytes) -> FileContents:
     points, polygons = rows[:vertex_count], rows[vertex_count : vertex_count + face_count]
     with complaints_about("OFF"):
         triangles, triangle_count = _fans(polygons)
+        if triangles:  # trimesh would not say that the corners look 1-based
+            faces_array(np.loadtxt(triangles, usecols=(1, 2, 3), dtype=np.int64, ndmin=2), vertex_count)
         loaded = load_off(StringIO("\n".join(["OFF", f"{vertex_count} {triangle_count} 0", *points, *triangles])))
         normals = np.loadtxt(points, usecols=(3, 4, 5), ndmin=2) if header[1] and not face_count else None
     if len(loaded["faces"]) != triangle_count:

@@ -27,7 +27,7 @@ MALFORMED = {
     "only a header.off": (b"OFF\n", "ends before the numbers of vertices and faces"),
     "truncated.off": (b"OFF\n4 2 0\n0 0 0\n1 0 0\n0 1 0\n", "claims 4 vertices and 2 faces, but only 3 lines follow"),
     "huge.off": (f"OFF\n{HUGE} {HUGE} 0\n0 0 0\n".encode(), f"claims {HUGE} vertices"),
-    "1-based.off": (b"OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 1 2 3\n", "a face index outside the range of its vertices"),
+    "1-based.off": (b"OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 1 2 3\n", "Are they 1-based?"),
     "nan.off": (b"OFF\n3 1 0\n0 0 nan\n1 0 0\n0 1 0\n3 0 1 2\n", "1 of 3 vertices is not finite (first: 0)"),
     "infinite.obj": (b"v 0 0 1e999\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", "1 of 3 vertices is not finite (first: 0)"),
     "words.off": (b"OFF\n3 1 0\n0 0 zero\n1 0 0\n0 1 0\n3 0 1 2\n", "could not convert string to float: 'zero'"),
