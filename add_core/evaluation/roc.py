@@ -43,10 +43,9 @@ def roc(
 ) -> ReceiverOperator:
     """Receiver operator characteristic of descriptors, over all q·n pairs of points.
 
-    queries, targets, truth, symmetry : as for `cmc`. Positives are the true pairs; in the symmetric setting each
-        counts with
-        the smaller of its distances to the true vertex and to that vertex's mirror image. Negatives are, in both
-        settings, all pairs but the true ones.
+    queries (q, d), targets (n, d), truth (q,), symmetry (n,) : as for `cmc`. Positives are the true pairs; in the
+        symmetric setting each counts with the smaller of its distances to the true vertex and to that vertex's mirror
+        image. Negatives are, in both settings, all pairs but the true ones.
 
     The curve holds every threshold at which a positive is accepted, so its area is exact; ties become straight lines.
     Raises ParameterError if arrays do not fit together or a descriptor is not finite.
