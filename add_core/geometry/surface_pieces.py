@@ -37,9 +37,9 @@ class SurfacePiece:
         """Whether at most two faces share each edge, and the faces around each node hang together by edges."""
         sides = _sorted_sides(self.faces)
         _, edge, counts = np.unique(sides, axis=0, return_inverse=True, return_counts=True)
-        if (counts > 2).any():
-            return False
-        # The corners at one node are joined across the edges that meet there: as many groups of corners as nodes.
+        # The corners at one node are joined across the edges with two faces that meet there. There are as many
+        # groups of corners as nodes, unless an edge has more than two faces (it joins nothing) or a node alone
+        # joins two sheets.
         corner = np.arange(self.faces.size).reshape(-1, 3)[:, [1, 2, 2, 0, 0, 1]].reshape(-1, 2)  # of the sides' ends
         corner = np.take_along_axis(corner, np.argsort(_sides(self.faces), axis=1), axis=1)
         order = np.argsort(edge.ravel(), kind="stable")

@@ -126,8 +126,9 @@ def test_no_triangle_spans_the_gap_between_two_sheets():
     assert (triangles // len(sheet) == triangles[:, :1] // len(sheet)).all()
 
 
-def test_an_outlier_is_reported_and_touched_by_nothing(caplog):
-    points = np.vstack([sphere(2).vertices, [[50.0, 0, 0]]])
+@pytest.mark.parametrize("away", [3.0, 50.0])
+def test_an_outlier_is_reported_and_touched_by_nothing(caplog, away):
+    points = np.vstack([sphere(2).vertices, [[away, 0, 0]]])
     with caplog.at_level(logging.WARNING, logger="add_core"):
         fans = PointCloud(points).fans
     assert_array_equal(fans.isolated, [162])

@@ -10,8 +10,9 @@ from hypothesis import strategies as st
 from numpy.testing import assert_allclose, assert_array_equal
 
 from add_core.errors import ParameterError
-from add_core.geometry import PointCloud, TriangleMesh, geodesic_distances
+from add_core.geometry import PointCloud, TriangleMesh, geodesic_distances, subsample
 from add_core.geometry.shapes import rectangle, sphere
+from add_core.io import humans
 
 
 def straight(shape, source):
@@ -46,6 +47,17 @@ def test_paths_on_a_cloud_do_not_jump_between_walls_that_face_each_other():
     folded = np.vstack([sheet, sheet + np.array([0, 0, 0.05])])  # nearer than neighbours on one sheet are
     cloud = PointCloud(folded, np.repeat([[0, 0, 1.0], [0, 0, -1.0]], len(sheet), axis=0))
     assert np.isinf(geodesic_distances(cloud, 0)[0, len(sheet) :]).all()
+
+
+def test_paths_on_a_cloud_of_a_person_take_no_short_cuts():
+    """He walks: hands and feet come near other parts, and 4,000 points are as far apart as his fingers are thick."""
+    mesh = humans()[33]
+    sample = subsample(mesh, 4000)
+    sources = np.arange(0, 4000, 500)
+    exact = geodesic_distances(mesh, sample.indices[sources])[:, sample.indices]
+    error = (geodesic_distances(sample.cloud, sources) - exact) / exact.max()
+    assert error.min() > -0.04
+    assert np.quantile(np.abs(error), 0.95) < 0.02
 
 
 def test_points_of_a_cloud_in_one_place_are_no_distance_apart():
