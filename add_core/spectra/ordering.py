@@ -161,21 +161,36 @@ def _two_halves(places: FloatArray, tails: IntArray, heads: IntArray) -> IntArra
     directions = np.column_stack(
         [np.outer(axes[:, 0], np.cos(angles)) + np.outer(axes[:, 1], np.sin(angles)), axes[:, 2]]
     )
-    best, best_score = None, np.inf
-    for height in (centred @ directions).T:
-        for share in (0.5, 0.46, 0.54, 0.42, 0.58):
-            upper = height > np.partition(height, int(share * len(height)))[int(share * len(height))]
-            cut = np.count_nonzero(upper[tails] != upper[heads])
-            count = np.count_nonzero(upper)
-            # A lopsided cut makes the tree deeper: it must save edges in proportion.
-            score = (cut + 1) * (1.0 + 2.0 * abs(2.0 * count / len(upper) - 1.0) ** 2)
-            if 0 < count < len(upper) and score < best_score:
-                best, best_score = upper, score
-    if best is None:  # all places coincide, as in a complete graph
-        best = np.arange(len(places)) >= len(places) // 2
-    part = best.astype(np.int64)
-    part[_least_cover(best, tails, heads)] = 2
+    heights = (centred @ directions).T
+    straight = [_cut(height, 0.5, tails, heads) for height in heights]
+    chosen = heights[int(np.argmin([cut.score for cut in straight]))]
+    shifted = [_cut(chosen, share, tails, heads) for share in (0.42, 0.46, 0.54, 0.58)]
+    best = min([*straight, *shifted], key=lambda cut: cut.score)
+    upper = best.upper
+    if not np.isfinite(best.score):  # all places coincide, as in a complete graph
+        upper = np.arange(len(places)) >= len(places) // 2
+    part = upper.astype(np.int64)
+    part[_least_cover(upper, tails, heads)] = 2
     return part
+
+
+@dataclass(frozen=True, eq=False)
+class _Cut:
+    """Which vertices lie above a plane, and how bad that is; infinitely, if all or none do."""
+
+    upper: BoolArray
+    score: float
+
+
+def _cut(height: FloatArray, share: float, tails: IntArray, heads: IntArray) -> _Cut:
+    """The cut with `share` of the vertices below it. A lopsided one deepens the tree: it must save edges for that."""
+    k = int(share * len(height))
+    upper = height > np.partition(height, k)[k]
+    count = np.count_nonzero(upper)
+    if not 0 < count < len(upper):
+        return _Cut(upper, np.inf)
+    edges = np.count_nonzero(upper[tails] != upper[heads])
+    return _Cut(upper, (edges + 1) * (1.0 + 2.0 * abs(2.0 * count / len(upper) - 1.0) ** 2))
 
 
 def _least_cover(upper: BoolArray, tails: IntArray, heads: IntArray) -> IntArray:

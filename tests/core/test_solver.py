@@ -158,3 +158,11 @@ def test_scipy_takes_over_where_lanczos_fails_and_says_so(monkeypatch, caplog):
     monkeypatch.setattr(solver, "DENSE_RESCUE", 10_000)
     assert_allclose(compute_spectrum(laplacian, count=40).eigenvalues, expected, rtol=1e-8, atol=1e-9)
     assert "Using the dense eigensolver instead" in caplog.text
+
+
+def test_a_last_eigenvalue_inside_a_cluster_is_counted_beside_it(caplog):
+    """Three equal spheres: λ₁ comes ninefold, and the fifth of those nine can be asked for without any fallback."""
+    laplacian = AnisotropicLaplacian(copies(sphere(2), 3), alpha=0.0)
+    spectrum = compute_spectrum(laplacian, count=3 + 5)
+    assert_allclose(spectrum.eigenvalues, dense_spectrum(laplacian, 0.0)[:8], rtol=1e-8, atol=1e-10)
+    assert caplog.text == ""
