@@ -2,8 +2,10 @@
 
 from .cmc import CumulativeMatch, cmc
 from .princeton import PrincetonCurve, match_errors, princeton, princeton_curve, surface_area
+from .report import save_report, table
 from .right_side import RightSide, right_side
 from .roc import ReceiverOperator, roc
+from .scores import Scores, averaged, descriptor_scores, match_scores
 from .truth import SurfacePoints
 
 __all__ = [
@@ -11,12 +13,18 @@ __all__ = [
     "PrincetonCurve",
     "ReceiverOperator",
     "RightSide",
+    "Scores",
     "SurfacePoints",
+    "averaged",
     "cmc",
+    "descriptor_scores",
     "match_errors",
+    "match_scores",
     "princeton",
     "princeton_curve",
     "right_side",
     "roc",
+    "save_report",
     "surface_area",
+    "table",
 ]

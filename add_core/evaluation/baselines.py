@@ -1,0 +1,100 @@
+"""The paper's peers that need no learning, one interface for all: from spectra to a descriptor of every point."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+
+from .._check import FloatArray, IntArray, one_of
+from ..correspondence import FunctionalMap, zoomout
+from ..descriptors import (
+    anisotropic_heat_kernel_signature,
+    anisotropic_heat_kernel_times,
+    geometry_vectors,
+    heat_kernel_times,
+    scale_invariant_heat_kernel_signature,
+    scaled_heat_kernel_signature,
+    wave_kernel_energies,
+    wave_kernel_signature,
+    windowed_fourier_descriptor,
+)
+from ..spectra import SpectralFamily, Spectrum
+
+NUMBERS = 16
+"""Numbers of an isotropic descriptor, and of each channel of a directed one."""
+
+
+def describe_with(name: str, family: SpectralFamily) -> FloatArray:
+    """The descriptor `name`, one of BASELINES, of every vertex: (n, d).
+
+    family : spectra of α = 0, and of one α > 0 at several angles for "ahks" and "geometry-vectors".
+    Raises ParameterError for an unknown name.
+    """
+    return BASELINES[one_of("name", name, tuple(BASELINES))](family)
+
+
+def isotropic(family: SpectralFamily) -> Spectrum:
+    """The spectrum of α = 0, from whose eigenfunctions (n, K) isotropic descriptors and functional maps are made."""
+    return family[int(np.flatnonzero(family.alphas == 0)[0])]
+
+
+def functional_map_matches(one: SpectralFamily, two: SpectralFamily) -> IntArray:
+    """Functional maps (Ovsjanikov et al. 2012) from wave kernel signatures, as points: (n2,), `match_21`."""
+    spectra = isotropic(one), isotropic(two)
+    found = FunctionalMap.from_descriptors(*spectra, _wks(one), _wks(two), count=30)
+    return np.asarray(found.match_21)
+
+
+def refined_matches(one: SpectralFamily, two: SpectralFamily, match_21: IntArray) -> IntArray:
+    """ZoomOut of matches (n2,) on the isotropic eigenfunctions of both shapes: (n2,)."""
+    return np.asarray(zoomout(isotropic(one), isotropic(two), match_21).match_21)
+
+
+def _hks(family: SpectralFamily) -> FloatArray:
+    spectrum = isotropic(family)
+    return scaled_heat_kernel_signature(spectrum, heat_kernel_times(spectrum, NUMBERS))
+
+
+def _si_hks(family: SpectralFamily) -> FloatArray:
+    return scale_invariant_heat_kernel_signature(isotropic(family), frequencies=NUMBERS)
+
+
+def _wks(family: SpectralFamily) -> FloatArray:
+    spectrum = isotropic(family)
+    chosen = wave_kernel_energies(spectrum, NUMBERS)
+    return wave_kernel_signature(spectrum, chosen.energies, width=chosen.width)
+
+
+def _wft(family: SpectralFamily) -> FloatArray:
+    moduli = windowed_fourier_descriptor(isotropic(family), _hks(family)[:, :1], frequencies=NUMBERS)
+    return np.asarray(moduli[:, 0])
+
+
+def _ahks(family: SpectralFamily) -> FloatArray:
+    """Logarithms, because values at short times are thousands of times those at long ones."""
+    values = anisotropic_heat_kernel_signature(family, anisotropic_heat_kernel_times(family, NUMBERS))
+    return _standardised(np.log(np.maximum(values, 1e-300)), family)
+
+
+def _splines(family: SpectralFamily) -> FloatArray:
+    return _standardised(np.log(geometry_vectors(family, count=64) + 1e-4), family)
+
+
+def _standardised(values: FloatArray, family: SpectralFamily) -> FloatArray:
+    flat = values.reshape(len(values), -1)
+    used = family.mass > 0
+    spread = flat[used].std(axis=0)
+    return np.asarray((flat - flat[used].mean(axis=0)) / np.where(spread > 1e-9, spread, 1.0))
+
+
+BASELINES: dict[str, Callable[[SpectralFamily], FloatArray]] = {
+    "hks": _hks,
+    "si-hks": _si_hks,
+    "wks": _wks,
+    "wft": _wft,
+    "ahks": _ahks,
+    "geometry-vectors": _splines,
+}
+DIRECTED = ("ahks", "geometry-vectors")
+"""Baselines that look at every angle."""
