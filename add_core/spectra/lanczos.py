@@ -19,6 +19,10 @@ from ..errors import ConvergenceError
 LOOSE = 3e-8
 """A full pass that finds overlaps larger than this came late: from then on every block gets one."""
 
+SMOOTHING = 4
+"""Inverse iterations on the start: each saves one step of a long recurrence and costs a solve without orthogonalising.
+Beyond 5 the start consists of the nearest few eigenvectors only, and saves nothing more."""
+
 STEEP = 1e-2
 """Rows that depend on each other more than this are orthonormalised twice: once leaves rounding over STEEP²."""
 
@@ -66,7 +70,8 @@ def shift_invert_lanczos(
     always : orthogonalise every block against all others from the start.
     Raises ConvergenceError if `most` rows do not suffice, or if skipped passes cost too much orthogonality.
     """
-    basis = _Basis(kernel, shift, most, block, seed=seed, always=always)
+    start = _start(solve, kernel, block, seed=seed)
+    basis = _Basis(kernel, shift, most, start, always=always)
     check = first_check
     previous: tuple[int, float] | None = None
     while True:
@@ -84,6 +89,16 @@ def shift_invert_lanczos(
             )
         check = basis.size + _steps_to_go(pairs, previous, basis.size, tolerance, block)
         previous = None if pairs is None else (basis.size, pairs.estimate)
+
+
+def _start(solve: Callable[[FloatArray], FloatArray], kernel: FloatArray, block: int, *, seed: int) -> FloatArray:
+    """(block, n): random rows beside the kernel, after SMOOTHING inverse iterations."""
+    rows = np.random.default_rng(seed).standard_normal((block, kernel.shape[1]))
+    for _ in range(SMOOTHING):
+        rows -= (rows @ kernel.T) @ kernel
+        smoothed = solve(np.ascontiguousarray(rows.T))
+        rows = np.ascontiguousarray(np.linalg.qr(smoothed)[0].T)
+    return rows - (rows @ kernel.T) @ kernel
 
 
 def _steps_to_go(
@@ -118,8 +133,9 @@ class _Convergence:
 class _Basis:
     """A growing orthonormal basis Q (rows) and T = Q (A − σI)⁻¹ Qᵀ, with one block more of Q than of T."""
 
-    def __init__(self, kernel: FloatArray, shift: float, most: int, block: int, *, seed: int, always: bool) -> None:
+    def __init__(self, kernel: FloatArray, shift: float, most: int, start: FloatArray, *, always: bool) -> None:
         c, n = kernel.shape
+        block = len(start)
         self._q = np.empty((most + block, n))
         self._t = np.zeros((most + block, most + block))
         self._q[:c] = kernel
@@ -127,8 +143,6 @@ class _Basis:
         self._shift, self._block, self._always = shift, block, always
         self._step = 0
         self._kernel_rows = self.size = c
-        start = np.random.default_rng(seed).standard_normal((block, n))
-        start -= (start @ kernel.T) @ kernel
         self._append(start)
 
     @property

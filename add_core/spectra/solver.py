@@ -15,7 +15,7 @@ from .._check import BoolArray, FloatArray, IntArray
 from ..errors import ConvergenceError
 from .factorisation import factorise, factorise_near
 from .fronts import FrontTree
-from .lanczos import RitzPairs, shift_invert_lanczos
+from .lanczos import SMOOTHING, RitzPairs, shift_invert_lanczos
 from .ordering import Dissection, known_dissection
 from .refinement import RESIDUAL, StandardPairs, orient, repaired
 
@@ -156,7 +156,7 @@ class PencilSolver:
             count,
             shift=factors.shift,
             block=block,
-            first_check=len(kernel) + max(int(1.91 * count), count + 8 * block),
+            first_check=len(kernel) + max(int(1.91 * count) - SMOOTHING * block, count + 8 * block),
             most=min(len(kernel) + 4 * count + 30 * block, len(order) - 2 * block),
             tolerance=0.7 * RESIDUAL,
             floor=1e-6 * shift,
