@@ -8,11 +8,12 @@ import os
 import queue
 import subprocess
 import sys
+import tempfile
 import threading
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import IO, Any
 
 import numpy as np
 from threadpoolctl import threadpool_limits
@@ -59,9 +60,12 @@ class WorkerPool:
     def __init__(self, count: int) -> None:
         self._answers: queue.Queue[tuple[int, str]] = queue.Queue()
         self._processes: list[subprocess.Popen[str]] = []
+        if not sys.executable or getattr(sys, "frozen", False):  # a frozen app would start itself again
+            raise WorkersUnavailable("this program has no Python interpreter of its own to start")
+        self._said = tempfile.TemporaryFile("w+", encoding="utf-8", errors="replace")  # a pipe could fill up and block
         try:
             for number in range(count):
-                self._processes.append(_start())
+                self._processes.append(_start(self._said))
                 threading.Thread(target=self._listen, args=(number,), daemon=True).start()
         except OSError as error:
             self.close()
@@ -89,9 +93,10 @@ class WorkerPool:
             process.kill()
         for process in self._processes:
             process.wait()
-            for stream in (process.stdin, process.stdout, process.stderr):
+            for stream in (process.stdin, process.stdout):
                 if stream is not None:
                     _close_quietly(stream)
+        self._said.close()
 
     def _listen(self, number: int) -> None:
         stdout = self._processes[number].stdout
@@ -120,12 +125,13 @@ class WorkerPool:
     def _last_words(self, number: int) -> str:
         process = self._processes[number]
         process.kill()
-        assert process.stderr is not None
-        said = process.stderr.read().strip().splitlines()
-        return said[-1] if said else f"exit status {process.wait()}"
+        status = process.wait()
+        self._said.seek(0)
+        said = self._said.read().strip().splitlines()
+        return said[-1] if said else f"exit status {status}"
 
 
-def _start() -> subprocess.Popen[str]:
+def _start(said: IO[str]) -> subprocess.Popen[str]:
     single = dict.fromkeys(
         ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "VECLIB_MAXIMUM_THREADS"), "1"
     )
@@ -133,7 +139,7 @@ def _start() -> subprocess.Popen[str]:
         [sys.executable, "-c", _START, json.dumps(sys.path)],
         stdin=subprocess.PIPE,
         stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
+        stderr=said,
         text=True,
         encoding="utf-8",
         env=os.environ | single,

@@ -111,12 +111,27 @@ def test_without_worker_processes_the_work_is_done_here(monkeypatch, caplog):
     assert "Solving in this process instead" in caplog.text
 
 
+def test_a_frozen_app_does_not_start_itself_again(monkeypatch, caplog):
+    expected = small_family()
+    monkeypatch.setattr(sys, "frozen", True, raising=False)
+    family = small_family(workers=2)
+    assert_array_equal(family.eigenfunctions, expected.eigenfunctions)
+    assert "no Python interpreter of its own" in caplog.text
+
+
+def test_a_worker_that_says_much_does_not_block(monkeypatch):
+    """A pipe that nobody reads would hold 64 kB, and then the worker for ever."""
+    loud = "import sys; sys.stderr.write('x' * 1_000_000); " + processes._START
+    monkeypatch.setattr(processes, "_START", loud)
+    assert_array_equal(small_family(workers=2).eigenfunctions, small_family().eigenfunctions)
+
+
 def test_a_worker_that_dies_costs_time_only(monkeypatch, caplog):
     expected = small_family()
     monkeypatch.setattr(processes, "_START", "raise SystemExit('struck by lightning')")
     family = small_family(workers=2)
     assert_array_equal(family.eigenfunctions, expected.eigenfunctions)
-    assert "Solving in this process instead" in caplog.text
+    assert "Solving in this process instead: a worker process ended by itself (struck by lightning)" in caplog.text
 
 
 def test_a_temporary_folder_that_is_full_costs_a_warning(monkeypatch, caplog):
