@@ -51,7 +51,8 @@ def test_shipped_shapes_open_from_the_wheel(installed, shapes):
 
 def test_every_shipped_data_file_is_in_the_wheel(installed):
     """What git keeps under assets/, but for the screenshots of the README and the scripts that made the data."""
-    data = [path for path in (ROOT / "assets" / "shapes").rglob("*") if path.suffix in {".npz", ".safetensors", ".md"}]
+    kept = [path for folder in ("shapes", "models") for path in (ROOT / "assets" / folder).rglob("*")]
+    data = [path for path in kept if path.suffix in {".npz", ".safetensors", ".md"}]
     assert data
     for path in data:
         packed = installed / "add_core" / "assets" / path.relative_to(ROOT / "assets")
