@@ -107,11 +107,11 @@ def _orthonormal(pairs: StandardPairs) -> StandardPairs:
 def _improved(
     tree: FrontTree, matrix: csr_array, kernel: FloatArray, pairs: StandardPairs, *, count: int
 ) -> StandardPairs:
-    """Two inverse iterations just below zero on the lowest `count` pairs, kept orthogonal to all others."""
+    """A few inverse iterations just below zero on the lowest `count` pairs, kept orthogonal to all others."""
     order = tree.dissection.permutation
     factors = factorise_near(tree, matrix.data, -0.01 * float(pairs.values[-1]))
     low, others = pairs.vectors[:, :count], np.vstack([kernel, pairs.vectors[:, count:].T])
-    for _ in range(2):
+    for _ in range(5):
         solved = np.empty_like(low)
         solved[order] = factors.solve(low[order])
         for _ in range(2):
