@@ -29,6 +29,8 @@ def describe_with(name: str, family: SpectralFamily) -> FloatArray:
     """The descriptor `name`, one of BASELINES, of every vertex: (n, d).
 
     family : spectra of α = 0, and of one α > 0 at several angles for "ahks" and "geometry-vectors".
+    Logarithms (values at short times are thousands of times those at long ones; not of SI-HKS and WFT), each column
+    standardised over the shape.
     Raises ParameterError for an unknown name.
     """
     return BASELINES[one_of("name", name, tuple(BASELINES))](family)
@@ -42,7 +44,7 @@ def isotropic(family: SpectralFamily) -> Spectrum:
 def functional_map_matches(one: SpectralFamily, two: SpectralFamily) -> IntArray:
     """Functional maps (Ovsjanikov et al. 2012) from wave kernel signatures, as points: (n2,), `match_21`."""
     spectra = isotropic(one), isotropic(two)
-    found = FunctionalMap.from_descriptors(*spectra, _wks(one), _wks(two), count=30)
+    found = FunctionalMap.from_descriptors(*spectra, _waves(one), _waves(two), count=30)
     return np.asarray(found.match_21)
 
 
@@ -52,27 +54,39 @@ def refined_matches(one: SpectralFamily, two: SpectralFamily, match_21: IntArray
 
 
 def _hks(family: SpectralFamily) -> FloatArray:
+    return _standardised(np.log(np.maximum(_heat(family), 1e-300)), family)
+
+
+def _si_hks(family: SpectralFamily) -> FloatArray:
+    """Between the times of the heat kernel signature: the original's are for shapes hundreds of units large."""
+    times = heat_kernel_times(isotropic(family), NUMBERS)
+    values = scale_invariant_heat_kernel_signature(
+        isotropic(family), frequencies=NUMBERS, first=float(np.log2(times.min())), last=float(np.log2(times.max()))
+    )
+    return _standardised(values, family)
+
+
+def _wks(family: SpectralFamily) -> FloatArray:
+    return _standardised(np.log(np.maximum(_waves(family), 1e-300)), family)
+
+
+def _wft(family: SpectralFamily) -> FloatArray:
+    moduli = windowed_fourier_descriptor(isotropic(family), _heat(family)[:, :1], frequencies=NUMBERS)
+    return _standardised(moduli[:, 0], family)
+
+
+def _heat(family: SpectralFamily) -> FloatArray:
     spectrum = isotropic(family)
     return scaled_heat_kernel_signature(spectrum, heat_kernel_times(spectrum, NUMBERS))
 
 
-def _si_hks(family: SpectralFamily) -> FloatArray:
-    return scale_invariant_heat_kernel_signature(isotropic(family), frequencies=NUMBERS)
-
-
-def _wks(family: SpectralFamily) -> FloatArray:
+def _waves(family: SpectralFamily) -> FloatArray:
     spectrum = isotropic(family)
     chosen = wave_kernel_energies(spectrum, NUMBERS)
     return wave_kernel_signature(spectrum, chosen.energies, width=chosen.width)
 
 
-def _wft(family: SpectralFamily) -> FloatArray:
-    moduli = windowed_fourier_descriptor(isotropic(family), _hks(family)[:, :1], frequencies=NUMBERS)
-    return np.asarray(moduli[:, 0])
-
-
 def _ahks(family: SpectralFamily) -> FloatArray:
-    """Logarithms, because values at short times are thousands of times those at long ones."""
     values = anisotropic_heat_kernel_signature(family, anisotropic_heat_kernel_times(family, NUMBERS))
     return _standardised(np.log(np.maximum(values, 1e-300)), family)
 
