@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import shlex
 import sys
+from functools import cache
 from pathlib import Path
 
 import click
 import numpy as np
+from scipy.spatial import KDTree
 
 from .._check import FloatArray, IntArray
+from ..correspondence import CorrespondenceForest
 from ..errors import ParameterError
 from ..evaluation import Scores, averaged, save_report, table
 from ..evaluation.baselines import BASELINES, describe_with, functional_map_matches, refined_matches
@@ -22,7 +25,7 @@ from ..spectra import SpectralFamily, compute_spectra
 from .reporting import progress, result
 
 COLLECTIONS = {"humans": humans, "poses": poses, "dogs": dogs}
-MAPS = "fm"
+MAPS, FOREST = "fm", "rf"
 REFINED = "+zoomout"
 
 
@@ -40,7 +43,8 @@ REFINED = "+zoomout"
     default="hks,wks,ahks",
     show_default=True,
     help=f"Some of {', '.join(BASELINES)}, {MAPS} "
-    f"(functional maps) or models of add-core train, with commas; {REFINED} after one refines its matches.",
+    f"(functional maps), {FOREST} (random forest) or models of add-core train, with commas; "
+    f"{REFINED} after one refines its matches.",
 )
 @click.option("--protocol", type=click.Choice(["all", *PROTOCOLS]), default="all", show_default=True)
 @click.option("--pairs", type=click.IntRange(min=1), default=6, show_default=True, help="Pairs of test shapes.")
@@ -71,6 +75,8 @@ def command(
     index.html, curves.svg, scores.csv, curves.csv and scores.json.
     """
     methods = _methods(descriptors)
+    if data != humans().title and any(method.startswith(FOREST) for method in methods):
+        raise ParameterError(f"descriptors must not name {FOREST} for {data}: it is trained on the shipped people.")
     protocols = PROTOCOLS if protocol == "all" else (protocol,)
     collection = COLLECTIONS[data]()
     chosen = chosen_pairs(collection, pairs, seed)
@@ -130,7 +136,7 @@ class _Pair:
     def scores(self, method: str, protocols: tuple[str, ...], queries: int | None) -> Scores:
         source, target = self._samples
         name = method.removesuffix(REFINED)
-        if name == MAPS or name != method:
+        if name in (MAPS, FOREST) or name != method:
             matches = self._matches(name)
             if name != method:
                 matches = refined_matches(self._families[1], self._families[0], matches)
@@ -149,6 +155,8 @@ class _Pair:
         """The target's point for each of the source's: the source is shape 2 of the map."""
         if name == MAPS:
             return functional_map_matches(self._families[1], self._families[0])
+        if name == FOREST:
+            return forest_matches(self._samples, self._descriptors("wks")[0], len(self._families[0].eigenvalues[0]))
         from ..correspondence import nearest_matches
 
         return nearest_matches(*self._descriptors(name))
@@ -164,6 +172,26 @@ class _Pair:
                 one, two = (np.asarray(model.describe(part.shape), dtype=np.float64) for part in self._samples)
             self._described[name] = (one, two)
         return self._described[name]
+
+
+def forest_matches(samples: tuple[Sample, Sample], descriptors: FloatArray, count: int) -> IntArray:
+    """(q,): the target's point that a random forest, trained on other people's wave kernel signatures, finds."""
+    label = _forest(count).matches(descriptors)
+    target = samples[1]
+    return np.asarray(KDTree(target.shape.vertices).query(target.original.vertices)[1], dtype=np.int64)[label]
+
+
+@cache
+def _forest(count: int) -> CorrespondenceForest:
+    """Trained on one pose of each of the training people; labels are vertices of the first."""
+    collection = humans()
+    chosen = [int(index) for index in collection.split("train")[::11]]
+    described = []
+    for index in chosen:
+        family = compute_spectra(normalize(collection[index]), alphas=(0.0,), angles=1, count=count)
+        described.append(describe_with("wks", family))
+    labels = [np.arange(len(values)) for values in described]
+    return CorrespondenceForest.train(described, labels, collection[0].vertices)
 
 
 def _save(

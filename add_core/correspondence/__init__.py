@@ -1,5 +1,6 @@
 """The same point on another shape: matches, functional maps and their refinement."""
 
+from .forest import CorrespondenceForest
 from .functional_equations import Weights
 from .functional_map import FunctionalMap
 from .icp import icp
@@ -11,6 +12,7 @@ from .transfer import TransferredColors, coordinate_colors, transfer_colors
 from .zoomout import zoomout
 
 __all__ = [
+    "CorrespondenceForest",
     "FunctionalMap",
     "IntrinsicSymmetry",
     "MirrorSymmetry",

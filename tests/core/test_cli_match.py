@@ -89,3 +89,8 @@ def test_evaluate_prints_a_table_and_writes_a_report(tmp_path, monkeypatch, caps
     facts = json.loads((folder / "scores.json").read_text(encoding="utf-8"))
     assert 0.0 <= facts["methods"][0]["CMC@10 asymmetric"] <= 1.0
     assert "person" in facts["notes"][0]
+
+
+def test_the_forest_knows_people_only(capsys):
+    run("evaluate", "--data", "dogs", "--descriptors", "rf", status=2)
+    assert "trained on the shipped people" in capsys.readouterr().err
