@@ -11,8 +11,8 @@ from .scores import PROTOCOLS, Scores
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000", "#999999")
-"""Okabe and Ito's colours, told apart by the colour-blind."""
+COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000", "#999999", "#882255", "#44aa99")
+"""Okabe and Ito's colours, told apart by the colour-blind, and two more."""
 AXES = {
     "cmc": ("CMC", "rank k", "share found among the k nearest"),
     "roc": ("ROC", "share of false pairs accepted", "share of true pairs accepted"),
