@@ -15,7 +15,7 @@ from ..errors import ParameterError
 from ..operators import AnisotropicLaplacian
 from .krylov import KrylovBasis
 
-TOLERANCE = 1e-6
+TOLERANCE = 1e-5
 """Relative accuracy of a kernel in the mass-weighted norm, and of the heat left at its source, by default."""
 _FACTOR_BYTES = 256 * 2**20
 _BYTES_PER_ENTRY = 12

@@ -42,14 +42,14 @@ def test_the_dense_reference_is_the_matrix_exponential(laplacian, modes):
 
 @pytest.mark.parametrize("spread", np.geomspace(0.05, 5000, 11))
 def test_kernels_agree_with_the_matrix_exponential(laplacian, modes, spread):
-    """t·λ₃₀₀ from a spark to nearly even: the promise is 1e-4, the tolerance 1e-6."""
+    """t·λ₃₀₀ from a spark to nearly even: the promise is 1e-4, the tolerance 1e-5."""
     time = spread / modes[0][300]
     flow = HeatFlow(laplacian)
     reference = dense_kernel(modes, time)
     for source in (0, 17, 300):
         kernel = flow.kernel(source, theta=THETA, time=time)
         error = mass_norm(laplacian, kernel - reference[source])
-        assert error < 3e-6 * mass_norm(laplacian, reference[source])
+        assert error < 2e-5 * mass_norm(laplacian, reference[source])
 
 
 @pytest.mark.parametrize("time", [1e-4, 1e-2, 1.0, 100.0])
@@ -83,7 +83,7 @@ def test_answers_do_not_depend_on_what_was_asked_before(laplacian, modes):
         used.kernel(source, theta=theta, time=time)
     fresh = HeatFlow(laplacian).kernel(5, theta=THETA, time=times[6])
     again = used.kernel(5, theta=THETA, time=times[6])
-    assert mass_norm(laplacian, again - fresh) < 3e-6 * mass_norm(laplacian, fresh)
+    assert mass_norm(laplacian, again - fresh) < 2e-5 * mass_norm(laplacian, fresh)
 
 
 def test_heat_stays_on_its_piece():
