@@ -9,6 +9,7 @@ import numpy as np
 
 from .._check import BoolArray, FloatArray, IntArray, read_only
 from .arcs import arc_edges
+from .bridges import bridging_triangles
 from .delaunay_stars import delaunay_stars
 from .neighbours import DistinctPoints
 from .tangent_planes import TangentPlanes
@@ -45,11 +46,17 @@ def build_fans(points: FloatArray, normals: FloatArray, planes: TangentPlanes, d
 
     Neighbours that seem to lie across a limb or a gap are left out of a fan at first, and let in by a more lenient
     test if the fan stays open without them, or by none if the point would touch no triangle at all. A point on the
-    boundary has an open fan. Points in one place share the fans around it: they take their turns as corners.
+    boundary has an open fan. Triangles that bridge a gap all the same are left out. Points in one place share the
+    fans around it: they take their turns as corners.
     """
     stars = _stars(planes)
-    weights = _weights(stars, points[distinct.first], normals[distinct.first])
-    triangles, weights = _shared_by_duplicates(stars, weights, distinct)
+    first = distinct.first
+    flat = _flatness(stars, points[first], normals[first]) > FLAT_ENOUGH
+    spacing = planes.nearest.distances[:, :6].sum(axis=1) / 6
+    sure = flat & (_holders(stars) >= 3)
+    sound = ~bridging_triangles(stars, sure, points[first], normals[first], spacing=spacing)
+    weights = _weights(stars, flat, len(first))
+    triangles, weights = _shared_by_duplicates(stars[sound], weights[sound], distinct)
     isolated = np.setdiff1d(np.arange(len(distinct.place)), triangles)
     if len(isolated):
         _log.warning("%d of %d points touch no triangle (first: %d).", len(isolated), len(distinct.place), isolated[0])
@@ -96,22 +103,30 @@ def _covered_angles(stars: IntArray, planes: TangentPlanes) -> FloatArray:
     return np.bincount(row, angle, len(planes.near)).astype(np.float64)
 
 
-def _weights(stars: IntArray, points: FloatArray, normals: FloatArray) -> FloatArray:
-    """(t,): one over how many fans cover the same side of an edge of the triangle, the most crowded of its three
-    edges.
-
-    1/3 where the fans agree, 1/4 where four points on a circle all choose the diagonals to themselves, 1/2 where
-    none does. What fewer than three fans claim counts no more than a third where it does not lie flat on the
-    surface: there it may bridge a gap.
-    """
-    sides = stars[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 3, 2)
-    keys = sides[:, :, 0] * len(points) + sides[:, :, 1]
-    _, edge, fans = np.unique(keys, return_inverse=True, return_counts=True)
-    cover = fans[edge.reshape(-1, 3)].max(axis=1)
+def _flatness(stars: IntArray, points: FloatArray, normals: FloatArray) -> FloatArray:
+    """(t,): least cosine between a triangle and the tangent planes of its corners."""
     a, b, c = (points[stars[:, i]] for i in range(3))
     upright = np.cross(b - a, c - a)
     upright /= np.linalg.norm(upright, axis=1, keepdims=True)
-    flat = np.einsum("ti,tci->tc", upright, normals[stars]).min(axis=1) > FLAT_ENOUGH
+    return np.asarray(np.einsum("ti,tci->tc", upright, normals[stars]).min(axis=1, initial=1.0))
+
+
+def _holders(stars: IntArray) -> IntArray:
+    """(t,): how many fans hold each triangle."""
+    _, same, counts = np.unique(np.sort(stars, axis=1), axis=0, return_inverse=True, return_counts=True)
+    return np.asarray(counts[same.ravel()])
+
+
+def _weights(stars: IntArray, flat: BoolArray, count: int) -> FloatArray:
+    """(t,): one over how many fans cover the same side of an edge of the triangle, the most crowded of its edges.
+
+    1/3 where the fans agree, 1/4 where four points on a circle all choose the diagonals to themselves, 1/2 where
+    none does. What fewer than three fans claim counts no more than a third where it is not `flat` on the surface:
+    there it may bridge a gap.
+    """
+    sides = stars[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 3, 2)
+    _, edge, fans = np.unique(sides @ np.array([count, 1]), return_inverse=True, return_counts=True)
+    cover = fans[edge.reshape(-1, 3)].max(axis=1, initial=1)
     return np.asarray(1.0 / np.where(flat & (cover > 1), cover, np.maximum(cover, 3)))
 
 

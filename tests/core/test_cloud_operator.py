@@ -126,6 +126,23 @@ def test_the_spectrum_of_a_person_survives_the_loss_of_the_faces():
     assert cloud.area == pytest.approx(mesh.area, rel=0.02)
 
 
+def test_hands_on_thighs_do_not_grow_together():
+    """The hands of a person who sits are one or two point distances above the thighs; joined, λ₁ would all but
+    double."""
+    mesh = humans()[45]
+    of_mesh = compute_spectrum(AnisotropicLaplacian(mesh, alpha=0.0), count=30).eigenvalues
+    cloud = subsample(mesh, 4000).cloud
+    of_cloud = compute_spectrum(AnisotropicLaplacian(cloud, alpha=0.0), count=30).eigenvalues
+    assert_allclose(of_cloud[1:], of_mesh[1:], rtol=0.12)
+
+
+@pytest.mark.parametrize("around", [12, 20, 40])
+def test_the_fans_of_a_coarse_grid_keep_its_area(around):
+    shape = torus(around=2 * around, through=around)
+    cloud = PointCloud(shape.vertices, shape.vertex_normals)
+    assert cloud.area == pytest.approx(4 * np.pi**2 * 0.4, rel=0.1)
+
+
 @pytest.mark.parametrize("conductivity", ["curvature", "constant"])
 def test_the_matrix_is_symmetric_positive_semidefinite_with_constants_in_its_kernel(conductivity):
     cloud = PointCloud(subsample(humans()[3], 700).cloud.points)
