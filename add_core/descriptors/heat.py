@@ -6,9 +6,12 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .._check import FloatArray, count_in, finite, positive, positive_array
+from ..errors import ParameterError
 from ..spectra import Spectrum
 from .filters import spectral_signature
 from .range import lowest_nonzero_eigenvalue
+
+_SPAN = 24.0
 
 
 def heat_kernel_signature(spectrum: Spectrum, times: ArrayLike) -> FloatArray:
@@ -49,22 +52,32 @@ def scale_invariant_heat_kernel_signature(
     *,
     frequencies: int = 6,
     base: float = 2.0,
-    first: float = 1.0,
-    last: float = 25.0,
+    first: float | None = None,
+    last: float | None = None,
     step: float = 1 / 16,
 ) -> FloatArray:
     """SI-HKS of Bronstein and Kokkinos 2010: (n, frequencies), without unit; the same for a shape of any size.
 
     Heat is sampled at the logarithmic times base^τ, τ = first, first + step, …, last. The derivative of log h over
     τ knows no factor, and the modulus of its Fourier transform no shift: the lowest `frequencies` of it are kept.
-    The shape's size cancels exactly only over all of τ; over the paper's range, for shapes of comparable size.
-    Vertices without mass have zeros.
+    As in the paper τ spans 24; by default around the middle of the spectrum's own range of times, because the paper's
+    1 to 25 fits shapes of its size only (on one of unit diameter all heat is even by then).
+    Vertices without mass have zeros. Raises ParameterError if τ does not ascend.
     """
     step, base = positive("step", step), positive("base", base)
-    exponents = np.arange(finite("first", first), finite("last", last) + step / 2, step)
+    start = _middle_exponent(spectrum, base) - _SPAN / 2 if first is None else finite("first", first)
+    end = start + _SPAN if last is None else finite("last", last)
+    if end - start < 2 * step:
+        raise ParameterError(f"last must exceed first by two steps at least, but they are {end:g} and {start:g}.")
+    exponents = np.arange(start, end + step / 2, step)
     frequencies = count_in("frequencies", frequencies, 1, len(exponents) // 2)
     logarithm = np.full((len(spectrum.mass), len(exponents)), 0.0)
     heat = heat_kernel_signature(spectrum, base**exponents)
     np.log(heat, out=logarithm, where=heat > 0)
     spectrum_of_change = np.fft.fft(np.diff(logarithm, axis=1), axis=1)
     return np.abs(spectrum_of_change[:, :frequencies])
+
+
+def _middle_exponent(spectrum: Spectrum, base: float) -> float:
+    ends = heat_kernel_times(spectrum, 2)
+    return float(np.log(ends).mean() / np.log(base))

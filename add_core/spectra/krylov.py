@@ -12,7 +12,7 @@ from ..errors import ConvergenceError
 
 _MOST_VECTORS = 150
 _FIRST = 8
-_STEP = 3  # between two looks at the accuracy, each of which costs a third of a solve
+_STEP = 2  # between two looks at the accuracy, each of which costs a third of a solve
 
 
 class KrylovBasis:
