@@ -38,7 +38,9 @@ class HeatFlow:
         self.laplacian, self.tolerance = laplacian, positive("tolerance", tolerance)
         self._massive: BoolArray = laplacian.mass > 0
         self._root = np.sqrt(np.where(self._massive, laplacian.mass, 1.0))
-        self._factors: OrderedDict[tuple[float, float], _Factor] = OrderedDict()
+        # One factorisation follows the kernel: fresh memory for each costs a fifth of its time. Signatures come
+        # back to theirs.
+        self._latest, self._angles = _Factors(limit=0), _Factors(limit=_FACTOR_BYTES)
         self._basis: tuple[tuple[int, float, float], KrylovBasis] | None = None
 
     def kernel(self, source: int, *, theta: float, time: float) -> FloatArray:
@@ -68,7 +70,7 @@ class HeatFlow:
         left = np.empty((len(angles), len(moments)))
         for row, theta in enumerate(angles):
             for gamma in np.unique(gammas):
-                basis = self._new_basis(source, theta, gamma)
+                basis = self._new_basis(source, self._angles.at(self.laplacian, theta, gamma, self._root))
                 for k in np.flatnonzero(gammas == gamma):
                     left[row, k] = basis.left_at_start(moments[k], tolerance=self.tolerance)
         return left
@@ -84,26 +86,39 @@ class HeatFlow:
     def _basis_at(self, source: int, theta: float, gamma: float) -> KrylovBasis:
         key = (source, theta, gamma)
         if self._basis is None or self._basis[0] != key:
-            self._basis = key, self._new_basis(source, theta, gamma)
+            self._basis = None
+            self._basis = key, self._new_basis(source, self._latest.at(self.laplacian, theta, gamma, self._root))
         return self._basis[1]
 
-    def _new_basis(self, source: int, theta: float, gamma: float) -> KrylovBasis:
-        factor = self._factor_at(theta, gamma)
-        order = self.laplacian.pattern.elimination.order
-        pieces = self.laplacian.pattern.pieces
-        piece = np.where(pieces == pieces[source], self._root, 0.0)[order]
-        start = np.zeros(len(order))
-        start[self.laplacian.pattern.elimination.position[source]] = 1 / self._root[source]
-        return KrylovBasis(factor.apply, start, rate=1 / gamma, kernel=piece / np.linalg.norm(piece))
+    def _new_basis(self, source: int, factor: _Factor) -> KrylovBasis:
+        elimination, pieces = self.laplacian.pattern.elimination, self.laplacian.pattern.pieces
+        piece = np.where(pieces == pieces[source], self._root, 0.0)[elimination.order]
+        start = np.zeros(len(piece))
+        start[elimination.position[source]] = 1 / self._root[source]
+        return KrylovBasis(factor.apply, start, rate=1 / factor.gamma, kernel=piece / np.linalg.norm(piece))
 
-    def _factor_at(self, theta: float, gamma: float) -> _Factor:
+
+class _Factors:
+    """The factorisations used last, as many as fit into `limit` bytes, and at least one."""
+
+    def __init__(self, *, limit: int) -> None:
+        self._limit = limit
+        self._kept: OrderedDict[tuple[float, float], _Factor] = OrderedDict()
+
+    def at(self, laplacian: AnisotropicLaplacian, theta: float, gamma: float, root: FloatArray) -> _Factor:
+        """The one at θ and γ, kept or new."""
         key = (theta, gamma)
-        if key not in self._factors:
-            self._factors[key] = _Factor.of(self.laplacian, theta, gamma, self._root)
-        self._factors.move_to_end(key)
-        while len(self._factors) > 1 and sum(factor.bytes for factor in self._factors.values()) > _FACTOR_BYTES:
-            self._factors.popitem(last=False)
-        return self._factors[key]
+        if key not in self._kept:
+            self._make_room()
+            self._kept[key] = _Factor.of(laplacian, theta, gamma, root)
+        self._kept.move_to_end(key)
+        return self._kept[key]
+
+    def _make_room(self) -> None:
+        sizes = [factor.bytes for factor in self._kept.values()]
+        while sizes and sum(sizes) + sizes[-1] > self._limit:
+            self._kept.popitem(last=False)
+            sizes.pop(0)
 
 
 @dataclass(frozen=True, eq=False)
@@ -111,6 +126,7 @@ class _Factor:
     """(I + γA)⁻¹ for A = S^{-1/2} W S^{-1/2}, on vectors in elimination order."""
 
     lu: SuperLU
+    gamma: float
     root: FloatArray
 
     @classmethod
@@ -124,7 +140,7 @@ class _Factor:
         lu = splu(
             matrix, permc_spec="NATURAL", diag_pivot_thresh=0.0, relax=4, panel_size=1, options={"SymmetricMode": True}
         )
-        return cls(lu, root[elimination.order])
+        return cls(lu, gamma, root[elimination.order])
 
     @property
     def bytes(self) -> int:
