@@ -13,7 +13,7 @@ from scipy.sparse.linalg import SuperLU, splu
 from .._check import BoolArray, FloatArray, finite, positive, positive_array, vertex_index
 from ..errors import ParameterError
 from ..operators import AnisotropicLaplacian
-from .krylov import KrylovBasis
+from .krylov import KrylovBasis, workspace
 
 TOLERANCE = 1e-5
 """Relative accuracy of a kernel in the mass-weighted norm, and of the heat left at its source, by default."""
@@ -42,6 +42,7 @@ class HeatFlow:
         # back to theirs.
         self._latest, self._angles = _Factors(limit=0), _Factors(limit=_FACTOR_BYTES)
         self._basis: tuple[tuple[int, float, float], KrylovBasis] | None = None
+        self._workspace = workspace(len(self._root))
 
     def kernel(self, source: int, *, theta: float, time: float) -> FloatArray:
         """Heat kernel h(source, ·) (n,), 1/length²: how unit heat released at `source` lies after `time`.
@@ -67,10 +68,10 @@ class HeatFlow:
         angles = [finite("thetas", angle) for angle in np.atleast_1d(np.asarray(thetas, dtype=np.float64))]
         # A diagonal value converges twice as fast as a column, so one factorisation serves one and a half decades.
         gammas = 10.0 ** (1.5 * np.floor(np.log10(moments) / 1.5)) / 2
-        left = np.empty((len(angles), len(moments)))
+        left, room = np.empty((len(angles), len(moments))), workspace(len(self._root))
         for row, theta in enumerate(angles):
             for gamma in np.unique(gammas):
-                basis = self._new_basis(source, self._angles.at(self.laplacian, theta, gamma, self._root))
+                basis = self._new_basis(source, self._angles.at(self.laplacian, theta, gamma, self._root), room)
                 for k in np.flatnonzero(gammas == gamma):
                     left[row, k] = basis.left_at_start(moments[k], tolerance=self.tolerance)
         return left
@@ -87,15 +88,17 @@ class HeatFlow:
         key = (source, theta, gamma)
         if self._basis is None or self._basis[0] != key:
             self._basis = None
-            self._basis = key, self._new_basis(source, self._latest.at(self.laplacian, theta, gamma, self._root))
+            factor = self._latest.at(self.laplacian, theta, gamma, self._root)
+            self._basis = key, self._new_basis(source, factor, self._workspace)
         return self._basis[1]
 
-    def _new_basis(self, source: int, factor: _Factor) -> KrylovBasis:
+    def _new_basis(self, source: int, factor: _Factor, room: FloatArray) -> KrylovBasis:
         elimination, pieces = self.laplacian.pattern.elimination, self.laplacian.pattern.pieces
         piece = np.where(pieces == pieces[source], self._root, 0.0)[elimination.order]
         start = np.zeros(len(piece))
         start[elimination.position[source]] = 1 / self._root[source]
-        return KrylovBasis(factor.apply, start, rate=1 / factor.gamma, kernel=piece / np.linalg.norm(piece))
+        even = piece / np.linalg.norm(piece)
+        return KrylovBasis(factor.apply, start, rate=1 / factor.gamma, kernel=even, workspace=room)
 
 
 class _Factors:

@@ -19,11 +19,18 @@ class KrylovBasis:
     r"""exp(−tA)v for symmetric positive semi-definite A, projected on span{v, Bv, B²v, …} with B = (I + A/rate)⁻¹.
 
     apply : x ↦ Bx. kernel : a unit vector with A·kernel = 0; its share of v does not decay and is kept exactly.
+    workspace : from `workspace(n)`; a basis that takes another's over ends the other's life. Fresh memory costs time.
     The basis is orthonormal and grows until the requested time is accurate; later times use what is there.
     """
 
     def __init__(
-        self, apply: Callable[[FloatArray], FloatArray], start: FloatArray, *, rate: float, kernel: FloatArray
+        self,
+        apply: Callable[[FloatArray], FloatArray],
+        start: FloatArray,
+        *,
+        rate: float,
+        kernel: FloatArray,
+        workspace: FloatArray,
     ) -> None:
         self._apply, self._rate, self._kernel = apply, rate, kernel
         self._share = float(kernel @ start)
@@ -31,7 +38,7 @@ class KrylovBasis:
         rest -= (kernel @ rest) * kernel
         self._norm = float(np.linalg.norm(rest))
         self._start_norm = float(np.linalg.norm(start))
-        self._vectors = np.empty((_MOST_VECTORS + 1, len(start)))
+        self._vectors = workspace
         self._projected = np.zeros((_MOST_VECTORS + 1, _MOST_VECTORS + 1))  # upper triangle of Qᵀ B Q
         self._ritz = _Ritz.of(self._projected[:0, :0], rate)
         self._ritz_before: _Ritz | None = None
@@ -92,6 +99,11 @@ class KrylovBasis:
             self._complete = True
         else:
             self._vectors[j + 1] = w / length
+
+
+def workspace(size: int) -> FloatArray:
+    """Room for the vectors of one basis at a time, each of length `size`."""
+    return np.empty((_MOST_VECTORS + 1, size))
 
 
 @dataclass(frozen=True, eq=False)
