@@ -10,7 +10,8 @@ from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from ..models.colours import MARKERS, theta_colour
+from add_core.drawing.colours import MARKERS, theta_colour
+
 from ..models.curve_reading import once_around, over_theta, over_time
 from ..models.diffusion import REACH_MAX, REACH_MIN
 from ..models.results import AutodiffusionCurves

@@ -19,7 +19,8 @@ from PySide6.QtGui import (
 )
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
-from ..models.colours import hex_colour, theta_colour
+from add_core.drawing.colours import hex_colour, theta_colour
+
 from .theme import round_pen
 
 SNAP = radians(15.0)

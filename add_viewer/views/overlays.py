@@ -8,7 +8,8 @@ from PySide6.QtCore import QPointF, QRectF, QSize, Qt
 from PySide6.QtGui import QColor, QFont, QLinearGradient, QPainter, QPaintEvent, QPen
 from PySide6.QtWidgets import QWidget
 
-from ..models.colours import hex_colour, kernel_map
+from add_core.drawing.colours import hex_colour, kernel_map
+
 from .theme import LIGHT, Theme, round_pen
 
 FloatArray = NDArray[np.float64]

@@ -6,7 +6,8 @@ from PySide6.QtCore import QRectF, QSize, Qt
 from PySide6.QtGui import QColor, QIcon, QPainter, QPen, QPixmap
 from PySide6.QtWidgets import QGridLayout, QHBoxLayout, QLabel, QToolButton, QVBoxLayout, QWidget
 
-from ..models.colours import MARKERS, hex_colour
+from add_core.drawing.colours import MARKERS, hex_colour
+
 from ..models.picks import Pick
 from ..models.session import Session
 from .icons import icon

@@ -16,7 +16,7 @@ GRID = 8
 
 @dataclass(frozen=True)
 class Theme:
-    """Colours of the window as "#rrggbb"; colours that mean something live in `models.colours`."""
+    """Colours of the window as "#rrggbb"; colours that mean something live in `add_core.drawing.colours`."""
 
     name: str
     window: str

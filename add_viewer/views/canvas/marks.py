@@ -6,7 +6,8 @@ import numpy as np
 import pyvista as pv
 from numpy.typing import NDArray
 
-from ...models.colours import MARKERS, theta_colour
+from add_core.drawing.colours import MARKERS, theta_colour
+
 from ...models.picks import Pick
 from ...models.results import DirectionField
 

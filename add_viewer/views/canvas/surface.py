@@ -8,9 +8,9 @@ from numpy.typing import NDArray
 from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkCommonCore import vtkLookupTable
 
+from add_core.drawing.colours import kernel_map
 from add_core.geometry import TriangleMesh
 
-from ...models.colours import kernel_map
 from ...models.shapes import Shape
 from .picker import CloudPicker, MeshPicker
 

@@ -3,8 +3,7 @@
 import numpy as np
 import pytest
 
-from add_viewer.models.colours import MARKERS, SKIN, kernel_map, oklab_to_srgb, srgb_to_oklab, theta_colour
-from add_viewer.models.kernel_scale import KernelScale
+from add_core.drawing.colours import MARKERS, SKIN, kernel_map, oklab_to_srgb, srgb_to_oklab, theta_colour
 
 
 def lightness(rgb):
@@ -40,17 +39,3 @@ def test_eight_markers_are_told_apart():
 def test_oklab_goes_there_and_back():
     colours = np.random.default_rng(0).random((100, 3))
     assert oklab_to_srgb(srgb_to_oklab(colours)) == pytest.approx(colours, abs=1e-6)
-
-
-def test_the_linear_scale_is_the_share_of_the_maximum():
-    values = np.array([0.0, 1.0, 4.0])
-    scale = KernelScale.of(values, "linear")
-    assert scale.position(values) == pytest.approx([0, 0.25, 1])
-    assert scale.ticks() == [(0.0, "0"), (0.5, "2"), (1.0, "4")]
-
-
-def test_the_log_scale_spans_two_decades_and_says_so():
-    values = np.array([-1e-9, 1.7, 17.0, 170.0])
-    scale = KernelScale.of(values, "log")
-    assert scale.position(values) == pytest.approx([0, 0, 0.5, 1])
-    assert [label for _, label in scale.ticks()] == ["≤ 1.7", "17", "170"]

@@ -8,9 +8,9 @@ from __future__ import annotations
 from functools import cache
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-FloatArray = NDArray[np.float64]
+from .._check import FloatArray
 
 SKIN = (0.862, 0.845, 0.822)
 """Uncoloured shapes and the low end of every kernel map: no heat looks like bare skin."""
