@@ -19,6 +19,7 @@ from ..descriptors import (
     wave_kernel_signature,
     windowed_fourier_descriptor,
 )
+from ..evaluation.baselines import describe_with
 from ..io import extensions, save_shape
 from ..operators import Conductivity
 from ..spectra import SpectralFamily, compute_spectra
@@ -71,6 +72,9 @@ _DIRECTED = ("ahks", "geometry-vectors")
 @click.option("--alphas", type=options.Numbers(), default=(50.0,), show_default="50", help="Of directed descriptors.")
 @click.option("--angles", type=int, default=16, show_default=True, help="Of directed descriptors.")
 @click.option("--count", type=int, default=300, show_default=True, help="K: eigenpairs of each operator.")
+@click.option(
+    "--compared", is_flag=True, help="As descriptors are compared: logarithms, each number standardised over the shape."
+)
 @options.conductivity
 @options.own_units
 @options.output(extensions(holding_fields=True), required=True)
@@ -82,6 +86,7 @@ def command(
     alphas: tuple[float, ...],
     angles: int,
     count: int,
+    compared: bool,
     conductivity: Conductivity,
     own_units: bool,
     output: Path,
@@ -91,7 +96,8 @@ def command(
 
     MODEL is a file of `add-core train`, or the name of a shipped one such as humans-madd3; it knows all options itself.
     hks, si-hks, wks and wft are isotropic: they cannot tell left from right. ahks and geometry-vectors have `numbers`
-    values for each α and angle, angle after angle.
+    values for each α and angle, angle after angle. --compared adds α = 0 to them and has numbers of its own, those of
+    `add-core match` and `evaluate`.
     """
     if len(names) > 1:
         _learned(names, output, as_json=as_json)
@@ -102,13 +108,13 @@ def command(
     with progress("Spectra", as_json=as_json) as advance:
         family = compute_spectra(
             worked_on,
-            alphas=alphas if directed else (0.0,),
+            alphas=_degrees(alphas, compared=compared) if directed else (0.0,),
             angles=angles,
             count=min(count, int(worked_on.vertex_count)),
             conductivity=conductivity,
             progress=advance,
         )
-    values = SIGNATURES[descriptor](family, numbers)
+    values = describe_with(descriptor, family) if compared else SIGNATURES[descriptor](family, numbers)
     values = values.reshape(len(values), -1)
     save_shape(open_shape(shape), output, fields={descriptor.replace("-", "_"): values})
     facts = {
@@ -119,6 +125,10 @@ def command(
         "output": str(output),
     }
     result(facts, as_json=as_json)
+
+
+def _degrees(alphas: tuple[float, ...], *, compared: bool) -> tuple[float, ...]:
+    return (0.0, *(alpha for alpha in alphas if alpha > 0)) if compared else alphas
 
 
 def _learned(names: tuple[str, ...], output: Path, *, as_json: bool) -> None:

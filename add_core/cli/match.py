@@ -7,13 +7,15 @@ from pathlib import Path
 import click
 import numpy as np
 
-from .._check import IntArray
+from .._check import FloatArray, IntArray
 from ..correspondence import icp, nearest_matches, zoomout
 from ..correspondence.functional_map import FunctionalMap
 from ..errors import ParameterError
-from ..evaluation.baselines import BASELINES, describe_with, functional_map_matches, isotropic
+from ..evaluation import match_errors, surface_area
+from ..evaluation.baselines import BASELINES, DIRECTED, describe_with, functional_map_matches, isotropic
 from ..geometry import PointCloud, TriangleMesh, normalize
-from ..io import save_shape
+from ..geometry.pair_distances import PairDistances
+from ..io import save_arrays, save_shape, shipped_place
 from ..spectra import SpectralFamily, compute_spectra
 from .reporting import Advance, progress, result
 from .shapes import open_shape
@@ -44,7 +46,13 @@ REFINEMENTS = ("none", "fm", "icp", "zoomout")
     "--output",
     type=click.Path(path_type=Path, dir_okay=False),
     required=True,
-    help="Text file: a vertex number of FIRST for each vertex of SECOND, a line each.",
+    help="Text file: a vertex number of FIRST for each vertex of SECOND, a line each. Ending in .npz: an archive of "
+    "matches, matches before refinement and, with --truth, their errors and curves.",
+)
+@click.option(
+    "--truth",
+    metavar="FILE",
+    help="Text file like the output, -1 where unknown; or 'same': equal numbers correspond. Reports the errors.",
 )
 @click.option(
     "--colors", type=click.Path(path_type=Path, dir_okay=False), help="Also write SECOND with FIRST's colours."
@@ -60,6 +68,7 @@ def command(
     alpha: float,
     angles: int,
     output: Path,
+    truth: str | None,
     colors: Path | None,
     as_json: bool,
 ) -> None:
@@ -69,14 +78,14 @@ def command(
     Vertex numbers start at 0.
     """
     shapes = open_shape(first), open_shape(second)
+    true = None if truth is None else _truth(truth, shapes[1].vertex_count)
+    alphas = (0.0, alpha) if descriptor in DIRECTED else (0.0,)
     with progress("Spectra", as_json=as_json) as advance:
-        families = _families(shapes, alpha, angles, count, advance)
-    matches = _raw(descriptor, shapes, families)
-    matches, found = _refined(matches, families, refine, size)
-    try:
-        np.savetxt(output, matches, fmt="%d")
-    except OSError as error:
-        raise ParameterError(f"{output} cannot be written: {error.strerror or error}.") from None
+        families = _families(shapes, alphas, angles, count, advance)
+    raw = _raw(descriptor, shapes, families)
+    matches, found = _refined(raw, families, refine, size)
+    errors = {} if true is None else _errors(first, shapes[0], true, raw, matches)
+    _save(output, raw, matches, errors)
     if colors is not None:
         from ..correspondence import transfer_colors
 
@@ -89,15 +98,51 @@ def command(
             "vertices of first": shapes[0].vertex_count,
             "vertices of second": shapes[1].vertex_count,
             "different matches": len(np.unique(matches)),
+            **{f"mean {name.replace('_', ' ')}": round(float(np.nanmean(e)), 4) for name, e in errors.items()},
             "output": str(output),
         },
         as_json=as_json,
     )
 
 
+def _truth(name: str, count: int) -> IntArray:
+    """(n2,): the true vertex of the first for each of the second."""
+    if name == "same":
+        return np.arange(count)
+    try:
+        return np.loadtxt(name, dtype=np.int64, ndmin=1)
+    except (OSError, ValueError) as error:
+        raise ParameterError(f"{name} is not a list of vertex numbers, one a line ({error}).") from None
+
+
+def _errors(
+    first: str, shape: TriangleMesh | PointCloud, truth: IntArray, raw: IntArray, matches: IntArray
+) -> dict[str, FloatArray]:
+    """Geodesic errors ÷ √area (n2,) before and after refinement, NaN where unknown; symmetric too, where η is known."""
+    place = None if Path(first).exists() else shipped_place(first)
+    settings = {"": None} if place is None else {"": None, "_symmetric": place.collection.symmetry}
+    distances, area = PairDistances(shape), surface_area(shape)
+    return {
+        f"{name}error{setting}": match_errors(found, truth, symmetry=chart, distances=distances, area=area)
+        for name, found in (("raw_", raw), ("", matches))
+        for setting, mirror in settings.items()
+        for chart in [np.arange(shape.vertex_count) if mirror is None else mirror]
+    }
+
+
+def _save(output: Path, raw: IntArray, matches: IntArray, errors: dict[str, FloatArray]) -> None:
+    if output.suffix.lower() == ".npz":
+        save_arrays(output, {"matches": matches, "raw_matches": raw, **errors})
+        return
+    try:
+        np.savetxt(output, matches, fmt="%d")
+    except OSError as error:
+        raise ParameterError(f"{output} cannot be written: {error.strerror or error}.") from None
+
+
 def _families(
     shapes: tuple[TriangleMesh | PointCloud, TriangleMesh | PointCloud],
-    alpha: float,
+    alphas: tuple[float, ...],
     angles: int,
     count: int,
     advance: Advance,
@@ -109,7 +154,7 @@ def _families(
             advance(position * total + done, 2 * total)
 
         k = min(count, shape.vertex_count - 1)
-        found.append(compute_spectra(normalize(shape), alphas=(0.0, alpha), angles=angles, count=k, progress=both))
+        found.append(compute_spectra(normalize(shape), alphas=alphas, angles=angles, count=k, progress=both))
     return found[0], found[1]
 
 

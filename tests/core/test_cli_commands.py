@@ -10,7 +10,7 @@ from add_core.cli import main
 from add_core.geometry.shapes import ellipsoid
 from add_core.io import load_fields, load_shape, save_shape
 from add_core.operators import AnisotropicLaplacian
-from add_core.spectra import HeatFlow
+from add_core.spectra import HeatFlow, compute_spectrum
 
 
 @pytest.fixture
@@ -117,3 +117,25 @@ def test_a_mistake_is_one_line_and_status_two(words, complaint, capsys):
     assert captured.err.startswith("add-core: ")
     assert complaint in captured.err
     assert captured.err.count("\n") == 1
+
+
+def test_describe_gives_descriptors_as_they_are_compared(egg, tmp_path):
+    """Logarithms, each column standardised over the surface; those of ahks with α = 0 among the channels."""
+    for descriptor, width in (("wks", 16), ("ahks", 16 * 3)):
+        written = tmp_path / f"{descriptor}.npz"
+        run("describe", egg, "--descriptor", descriptor, "--compared", "--count", 30, "--angles", 2, "-o", written)
+        values = load_fields(written)[descriptor]
+        assert values.shape == (162, width)
+        assert_allclose(values.mean(axis=0), 0.0, atol=1e-9)
+        assert_allclose(values.std(axis=0), 1.0, rtol=1e-9)
+
+
+def test_spectra_of_one_angle(egg, tmp_path, capsys):
+    written = tmp_path / "one.npz"
+    run("spectra", egg, "--alphas", 9, "--theta", 30, "--count", 8, "--own-units", "-o", written)
+    expected = compute_spectrum(AnisotropicLaplacian(load_shape(egg), alpha=9.0), theta=np.radians(30), count=8)
+    with np.load(written) as found:
+        assert_allclose(found["eigenvalues"][0], expected.eigenvalues, rtol=1e-9, atol=1e-9)
+        assert found["eigenfunctions"].shape == (1, 162, 8)
+    run("spectra", egg, "--theta", 30, status=2)
+    assert "--alphas names 3" in capsys.readouterr().err

@@ -94,3 +94,42 @@ def test_evaluate_prints_a_table_and_writes_a_report(tmp_path, monkeypatch, caps
 def test_the_forest_knows_people_only(capsys):
     run("evaluate", "--data", "dogs", "--descriptors", "rf", status=2)
     assert "trained on the shipped people" in capsys.readouterr().err
+
+
+def test_an_archive_holds_matches_and_errors_before_and_after_refinement(two, tmp_path, capsys):
+    first, second = two
+    truth, written = tmp_path / "truth.txt", tmp_path / "map.npz"
+    claimed = np.arange(162)[::-1].copy()
+    claimed[3], claimed[5] = 0, -1
+    np.savetxt(truth, claimed, fmt="%d")
+    options = ("--descriptor", "hks", "--truth", truth, "--json")
+    run("match", first, second, *options, *FAST, "-o", written)
+    with np.load(written) as archive:
+        found = dict(archive)
+    assert_array_equal(found["matches"], np.arange(162)[::-1])
+    assert_array_equal(found["raw_matches"], np.arange(162)[::-1])
+    for errors in (found["error"], found["raw_error"]):
+        assert np.isnan(errors[5])
+        assert errors[3] > 0.3
+        assert_array_equal(np.delete(errors, [3, 5]), np.zeros(160))
+    answer = json.loads(capsys.readouterr().out.splitlines()[-1])
+    assert answer["mean_raw_error"] == pytest.approx(np.nanmean(found["raw_error"]), abs=1e-4)
+    truth.write_text("one\n", encoding="utf-8")
+    run("match", first, second, *options, *FAST, "-o", written, status=2)
+    assert "is not a list of vertex numbers" in capsys.readouterr().err
+
+
+def test_symmetry_writes_the_mirror_image_of_every_vertex(tmp_path, monkeypatch, capsys):
+    """A ball with two unlike bumps has one mirror plane: the one through both of them."""
+    monkeypatch.setenv("ADD_CACHE_DIR", str(tmp_path / "cache"))
+    ball = sphere(3)
+    places = ball.vertices * [1.0, 1.3, 1.7]
+    for centre, height in (([0.0, 0.9, 1.1], 0.5), ([0.0, -0.5, 1.5], -0.2)):
+        places = places * (1 + height * np.exp(-4 * ((places - centre) ** 2).sum(axis=1)))[:, None]
+    save_shape(TriangleMesh(places, ball.faces), tmp_path / "a.off")
+    run("symmetry", tmp_path / "a.off", "--angles", 4, "--count", 60, "-o", tmp_path / "eta.txt", "--json")
+    answer = json.loads(capsys.readouterr().out.splitlines()[-1])
+    assert answer["found"] is True
+    eta = np.loadtxt(tmp_path / "eta.txt", dtype=int)
+    away = np.linalg.norm(places[eta] - places * [-1, 1, 1], axis=1)
+    assert np.median(away) < 0.1
