@@ -10,9 +10,11 @@ from numpy.typing import NDArray
 from psygnal import Signal
 
 from .diffusion import Diffusion
+from .fields import ShapeField
 from .picks import Pick
 
 FloatArray = NDArray[np.float64]
+IntArray = NDArray[np.int64]
 
 
 @dataclass(frozen=True, eq=False)
@@ -99,9 +101,17 @@ class Notice:
 
 
 class Results:
-    """Latest answers of the core. None where nothing is known."""
+    """Latest answers of the core. None where nothing is known.
+
+    kernel : heat on the active shape. fields : what each view draws, by panel (0, or 1 in a split view) and shape.
+    carried : the active shape's picks on the other shapes. maps : by source and target, the source vertex of each
+        target vertex as the chosen matching found it.
+    """
 
     kernel_changed = Signal()
+    fields_changed = Signal(int, str)
+    carried_changed = Signal()
+    maps_changed = Signal()
     curves_changed = Signal()
     directions_changed = Signal()
     scale_changed = Signal()
@@ -110,6 +120,9 @@ class Results:
 
     def __init__(self) -> None:
         self.kernel: KernelField | None = None
+        self.fields: dict[tuple[int, str], ShapeField] = {}
+        self.carried: dict[str, tuple[Pick, ...]] = {}
+        self.maps: dict[tuple[str, str], IntArray] = {}
         self.curves: tuple[AutodiffusionCurves, ...] = ()
         self.directions: DirectionField | None = None
         self.weyl_eigenvalue: float | None = None
@@ -120,6 +133,30 @@ class Results:
         if kernel is not self.kernel:
             self.kernel = kernel
             self.kernel_changed.emit()
+
+    def set_field(self, panel: int, shape: str, field: ShapeField | None) -> None:
+        """Draw `field` on that shape in that panel; None is bare skin."""
+        if field is not self.fields.get((panel, shape)):
+            if field is None:
+                del self.fields[panel, shape]
+            else:
+                self.fields[panel, shape] = field
+            self.fields_changed.emit(panel, shape)
+
+    def set_carried(self, carried: dict[str, tuple[Pick, ...]]) -> None:
+        """Where the active shape's picks lie on other shapes."""
+        if carried != self.carried:
+            self.carried = carried
+            self.carried_changed.emit()
+
+    def set_map(self, source: str, target: str, match: IntArray | None) -> None:
+        """`match` (n_target,): the source vertex of each target vertex; None forgets it."""
+        if match is not self.maps.get((source, target)):
+            if match is None:
+                del self.maps[source, target]
+            else:
+                self.maps[source, target] = match
+            self.maps_changed.emit()
 
     def set_curves(self, curves: tuple[AutodiffusionCurves, ...]) -> None:
         if curves or self.curves:

@@ -3,26 +3,41 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from typing import Any
 
 from psygnal import Signal
 
+from .arrangement import Arrangement, ShapeLook
 from .diffusion import Diffusion
+from .fields import FieldChoice
+from .matching import Matching
 from .picks import PICK_LIMIT, Pick, free_slot
 from .shapes import OpenShape
 
 UNDO_LIMIT = 200
 
+_DIFFUSION, _FIELD, _ARRANGEMENT, _MATCHING = Diffusion(), FieldChoice(), Arrangement(), Matching()
+
 
 @dataclass(frozen=True)
 class SessionState:
-    """A snapshot: open shapes, which of them is shown, the diffusion and the picks."""
+    """A snapshot.
+
+    shapes : in the order of their views. active_key : the source, the others being targets.
+    looks : of the shapes that are drawn otherwise than usual. picks : made by the person, on any shape.
+    field : drawn on every shape. compare : the second field of the split view, None without one.
+    """
 
     shapes: tuple[OpenShape, ...] = ()
     active_key: str | None = None
-    diffusion: Diffusion = field(default_factory=Diffusion)
+    looks: tuple[ShapeLook, ...] = ()
+    diffusion: Diffusion = _DIFFUSION
     picks: tuple[Pick, ...] = ()
+    field: FieldChoice = _FIELD
+    compare: FieldChoice | None = None
+    arrangement: Arrangement = _ARRANGEMENT
+    matching: Matching = _MATCHING
 
     @property
     def active(self) -> OpenShape | None:
@@ -30,7 +45,31 @@ class SessionState:
 
     @property
     def active_picks(self) -> tuple[Pick, ...]:
-        return tuple(pick for pick in self.picks if pick.shape == self.active_key)
+        return self.picks_on(self.active_key)
+
+    def picks_on(self, key: str | None) -> tuple[Pick, ...]:
+        """The picks of one shape."""
+        return tuple(pick for pick in self.picks if pick.shape == key)
+
+    def shape(self, key: str) -> OpenShape | None:
+        """The open shape of that key."""
+        return next((shape for shape in self.shapes if shape.key == key), None)
+
+    def look(self, key: str) -> ShapeLook:
+        """How the shape of that key is drawn."""
+        return next((look for look in self.looks if look.key == key), ShapeLook(key))
+
+    @property
+    def shown(self) -> tuple[OpenShape, ...]:
+        """The shapes that have a view; the active one always has."""
+        if self.arrangement.layout == "single":
+            return () if self.active is None else (self.active,)
+        return tuple(each for each in self.shapes if each.key == self.active_key or self.look(each.key).visible)
+
+    @property
+    def choices(self) -> tuple[FieldChoice, ...]:
+        """The field of each panel: one, or two in a split view."""
+        return (self.field,) if self.compare is None else (self.field, self.compare)
 
 
 class Session:
@@ -43,6 +82,10 @@ class Session:
     active_changed = Signal()
     diffusion_changed = Signal()
     picks_changed = Signal()
+    field_changed = Signal()
+    arrangement_changed = Signal()
+    looks_changed = Signal()
+    matching_changed = Signal()
     history_changed = Signal()
 
     def __init__(self) -> None:
@@ -64,50 +107,98 @@ class Session:
         left = tuple(shape for shape in self.state.shapes if shape.key != key)
         active = self.state.active_key if self.state.active_key != key else (left[-1].key if left else None)
         picks = tuple(pick for pick in self.state.picks if pick.shape != key)
-        self._apply("close", replace(self.state, shapes=left, active_key=active, picks=picks))
+        looks = tuple(look for look in self.state.looks if look.key != key)
+        self._apply("close", replace(self.state, shapes=left, active_key=active, picks=picks, looks=looks))
 
     def show_shape(self, key: str) -> None:
-        """Show another of the open shapes."""
-        if any(shape.key == key for shape in self.state.shapes):
+        """Make another of the open shapes the active one."""
+        if self.state.shape(key) is not None:
             self._apply("show", replace(self.state, active_key=key))
+
+    def move_shape(self, key: str, index: int) -> None:
+        """Put a shape at another place among the views."""
+        moved = self.state.shape(key)
+        if moved is not None:
+            others = [shape for shape in self.state.shapes if shape.key != key]
+            others.insert(min(max(index, 0), len(others)), moved)
+            self._apply("move", replace(self.state, shapes=tuple(others)))
+
+    def set_look(self, key: str, **changes: Any) -> None:
+        """Change how one shape is drawn: visible, wireframe, point_size."""
+        if self.state.shape(key) is not None:
+            look = self.state.look(key).with_changes(**changes)
+            others = tuple(each for each in self.state.looks if each.key != key)
+            kept = others if look == ShapeLook(key) else (*others, look)
+            kind = f"look {key} " + " ".join(sorted(changes))
+            self._apply(kind, replace(self.state, looks=kept), coalesce="point_size" in changes)
+
+    def arrange(self, **changes: Any) -> None:
+        """Change layout, linked or common_range."""
+        self._apply("arrange", replace(self.state, arrangement=self.state.arrangement.with_changes(**changes)))
+
+    def choose_field(self, **changes: Any) -> None:
+        """Change what is drawn on every shape."""
+        made = self.state.field.with_changes(**changes)
+        sliding = set(changes) <= {"saturation", "index"}
+        self._apply("field " + " ".join(sorted(changes)), replace(self.state, field=made), coalesce=sliding)
+
+    def choose_comparison(self, choice: FieldChoice | None) -> None:
+        """Draw a second field beside the first, or None: the first alone."""
+        self._apply("compare", replace(self.state, compare=choice))
+
+    def match(self, **changes: Any) -> None:
+        """Change how picks and colours are carried to other shapes."""
+        self._apply("match", replace(self.state, matching=self.state.matching.with_changes(**changes)))
 
     def diffuse(self, **changes: Any) -> None:
         """Change α, θ, reach or the conductivity model."""
         diffusion = self.state.diffusion.with_changes(**changes)
         self._apply("diffuse " + " ".join(sorted(changes)), replace(self.state, diffusion=diffusion), coalesce=True)
 
-    def pick(self, vertex: int, *, add: bool = False) -> None:
-        """Pick `vertex` of the active shape, instead of the earlier picks or in addition to them."""
-        if not self._has_vertex(vertex):
+    def pick(self, vertex: int, *, add: bool = False, shape: str | None = None) -> None:
+        """Pick `vertex` of the active shape, or of `shape`, which becomes the active one.
+
+        It takes the place of all earlier picks, on whatever shape, unless `add` keeps them.
+        """
+        state = self._with_active(shape)
+        if not _has_vertex(state, vertex):
             return
-        kept = self.state.active_picks if add else ()
-        if any(pick.vertex == vertex for pick in kept) and add:
+        kept = state.active_picks if add else ()
+        if any(pick.vertex == vertex for pick in kept):
             return
         slot = free_slot(kept)
         if slot is not None:
-            self._set_picks("pick", (*kept, self._new_pick(vertex, slot)))
+            state = state if add else replace(state, picks=())
+            self._set_picks("pick", state, (*kept, _new_pick(state, vertex, slot)))
 
-    def pick_mirror(self, vertex: int) -> None:
+    def pick_mirror(self, vertex: int, *, shape: str | None = None) -> None:
         """Pick the mirror image of `vertex`, in the colour of `vertex`, which is picked too if it is not yet."""
-        mirror = self.state.active.mirror(vertex) if self.state.active and self._has_vertex(vertex) else None
-        if mirror is None:
+        state = self._with_active(shape)
+        mirror = state.active.mirror(vertex) if state.active and _has_vertex(state, vertex) else None
+        if mirror is not None:
+            self.pick_partner(vertex, mirror, shape=shape)
+
+    def pick_partner(self, vertex: int, mirror: int, *, shape: str | None = None) -> None:
+        """Pick `mirror`, chosen by hand or found by a computation, as the mirror image of `vertex`."""
+        state = self._with_active(shape)
+        if not (_has_vertex(state, vertex) and _has_vertex(state, mirror)):
             return
-        kept = self.state.active_picks
+        kept = state.active_picks
         partner = next((pick for pick in kept if pick.vertex == vertex), None)
         slot = partner.slot if partner else free_slot(kept)
         if slot is None or any(pick.vertex == mirror for pick in kept):
             return
-        added = () if partner else (self._new_pick(vertex, slot),)
-        self._set_picks("pick", (*kept, *added, self._new_pick(mirror, slot, mirror_of=vertex)))
+        added = () if partner else (_new_pick(state, vertex, slot),)
+        self._set_picks("pick", state, (*kept, *added, _new_pick(state, mirror, slot, mirror_of=vertex)))
 
     def unpick(self, vertex: int) -> None:
         """Remove one pick, and its mirror image with it."""
         kept = (p for p in self.state.active_picks if vertex not in (p.vertex, p.mirror_of))
-        self._set_picks("unpick", tuple(kept))
+        self._set_picks("unpick", self.state, tuple(kept))
 
     def clear_picks(self) -> None:
-        """Remove every pick on the active shape."""
-        self._set_picks("clear", ())
+        """Remove every pick on every shape."""
+        self._apply("clear", replace(self.state, picks=()))
 
     # -- undo ---------------------------------------------------------------------------------------------------------
 
@@ -137,16 +228,13 @@ class Session:
 
     # -- within -------------------------------------------------------------------------------------------------------
 
-    def _has_vertex(self, vertex: int) -> bool:
-        return self.state.active is not None and 0 <= vertex < self.state.active.vertex_count
+    def _with_active(self, key: str | None) -> SessionState:
+        known = key is not None and self.state.shape(key) is not None
+        return replace(self.state, active_key=key) if known else self.state
 
-    def _new_pick(self, vertex: int, slot: int, mirror_of: int | None = None) -> Pick:
-        assert self.state.active_key is not None
-        return Pick(self.state.active_key, vertex, slot, mirror_of)
-
-    def _set_picks(self, kind: str, picks: tuple[Pick, ...]) -> None:
-        others = tuple(pick for pick in self.state.picks if pick.shape != self.state.active_key)
-        self._apply(kind, replace(self.state, picks=(*others, *picks[: 2 * PICK_LIMIT])))
+    def _set_picks(self, kind: str, state: SessionState, picks: tuple[Pick, ...]) -> None:
+        others = tuple(pick for pick in state.picks if pick.shape != state.active_key)
+        self._apply(kind, replace(state, picks=(*others, *picks[: 2 * PICK_LIMIT])))
 
     def _apply(self, kind: str, state: SessionState, *, coalesce: bool = False) -> None:
         if state == self.state:
@@ -162,10 +250,23 @@ class Session:
         changes: list[tuple[bool, Callable[[], None]]] = [
             (before.shapes != state.shapes, self.shapes_changed.emit),
             (before.active is not state.active, self.active_changed.emit),
-            (before.active_picks != state.active_picks, self.picks_changed.emit),
+            (before.picks != state.picks or before.active_picks != state.active_picks, self.picks_changed.emit),
             (before.diffusion != state.diffusion, self.diffusion_changed.emit),
+            ((before.field, before.compare) != (state.field, state.compare), self.field_changed.emit),
+            (before.looks != state.looks, self.looks_changed.emit),
+            (before.arrangement != state.arrangement, self.arrangement_changed.emit),
+            (before.matching != state.matching, self.matching_changed.emit),
             (True, self.history_changed.emit),
         ]
         for differs, announce in changes:
             if differs:
                 announce()
+
+
+def _has_vertex(state: SessionState, vertex: int) -> bool:
+    return state.active is not None and 0 <= vertex < state.active.vertex_count
+
+
+def _new_pick(state: SessionState, vertex: int, slot: int, mirror_of: int | None = None) -> Pick:
+    assert state.active_key is not None
+    return Pick(state.active_key, vertex, slot, mirror_of)

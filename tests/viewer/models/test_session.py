@@ -5,6 +5,7 @@ from math import pi
 import numpy as np
 import pytest
 
+from add_viewer.models.fields import FieldChoice
 from add_viewer.models.session import Session
 
 
@@ -122,13 +123,75 @@ def test_each_signal_comes_once_and_only_for_its_part(session):
     assert heard == ["diffusion", "picks"]
 
 
-def test_each_shape_keeps_its_picks(session, make_torus):
+def test_a_click_on_another_shape_makes_it_the_source_in_one_step(session, make_torus):
+    session.add_shape(make_torus("second"))
+    session.pick(4)
+    before = session.state
+    session.pick(3, shape="torus")
+    assert session.state.active_key == "torus"
+    assert [(pick.shape, pick.vertex) for pick in session.state.picks] == [("torus", 3)]
+    session.undo()
+    assert session.state == before
+
+
+def test_added_picks_lie_on_several_shapes_and_go_with_theirs(session, make_torus):
     session.pick(3)
     session.add_shape(make_torus("second"))
     assert vertices(session) == []
-    session.pick(4)
+    session.pick(4, add=True)
     session.show_shape("torus")
     assert vertices(session) == [3]
     session.close_shape("torus")
-    assert vertices(session) == [4]
-    assert [pick.shape for pick in session.state.picks] == ["second"]
+    assert [(pick.shape, pick.vertex) for pick in session.state.picks] == [("second", 4)]
+    session.clear_picks()
+    assert session.state.picks == ()
+
+
+def test_a_mirror_point_can_be_chosen_by_hand(session):
+    session.pick(4)
+    session.pick_partner(4, 9)
+    assert [(pick.vertex, pick.mirror_of, pick.slot) for pick in session.state.active_picks] == [
+        (4, None, 0),
+        (9, 4, 0),
+    ]
+
+
+def test_shapes_are_moved_hidden_and_drawn_in_their_own_ways(session, make_torus):
+    session.add_shape(make_torus("second"))
+    session.add_shape(make_torus("third"))
+    session.move_shape("third", 0)
+    assert [shape.key for shape in session.state.shapes] == ["third", "torus", "second"]
+    session.set_look("torus", visible=False, point_size=9.0)
+    assert session.state.look("torus").point_size == 4.0
+    assert [shape.key for shape in session.state.shown] == ["third", "second"]
+    session.set_look("third", visible=False)  # the active shape always has a view
+    assert [shape.key for shape in session.state.shown] == ["third", "second"]
+    session.arrange(layout="single")
+    assert [shape.key for shape in session.state.shown] == ["third"]
+    session.close_shape("torus")
+    assert [look.key for look in session.state.looks] == ["third"]
+
+
+def test_fields_and_their_comparison_are_chosen_and_undone(session):
+    heard = []
+    session.field_changed.connect(lambda: heard.append(session.state.choices))
+    session.choose_field(kind="distance", descriptor="wks")
+    for percentile in (60.0, 70.0, 800.0):
+        session.choose_field(saturation=percentile)
+    session.choose_comparison(FieldChoice("eigenfunction", index=4))
+    assert session.state.choices == (
+        FieldChoice("distance", "wks", saturation=100.0),
+        FieldChoice("eigenfunction", index=4),
+    )
+    session.undo()
+    session.undo()
+    assert session.state.choices == (FieldChoice("distance", "wks"),)
+    assert len(heard) == 7
+
+
+@pytest.mark.parametrize("change", [{"layout": "heap"}, {"kind": "nonsense"}, {"method": "guess"}])
+def test_words_that_nobody_knows_change_nothing(session, change):
+    before = session.state
+    act = {"layout": session.arrange, "kind": session.choose_field, "method": session.match}[next(iter(change))]
+    act(**change)
+    assert session.state == before
