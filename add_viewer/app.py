@@ -27,6 +27,10 @@ def main(arguments: list[str] | None = None) -> int:
         problem = f"The folder of {options.screenshot} does not exist. Create it first."
     if problem is not None:
         return _fail(problem)
+    from .controllers.opening import read_shape
+    from .tasks.ahead import Ahead
+
+    read = Ahead(read_shape, options.files)  # while the window's libraries load
     from .assembly import Assembly, application  # Qt loads here, after the checks
     from .views.graphics import graphics_problem
 
@@ -35,7 +39,7 @@ def main(arguments: list[str] | None = None) -> int:
     if problem is not None:
         return _fail(problem)
     chosen = {"size": options.size, "theme": options.theme, "pick": options.pick}
-    return Assembly(options.files, options.screenshot, app=app, **chosen).run()
+    return Assembly(options.files, options.screenshot, app=app, read=read, **chosen).run()
 
 
 def _parser() -> argparse.ArgumentParser:

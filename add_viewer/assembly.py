@@ -18,7 +18,7 @@ from .controllers.curves import CurvesController
 from .controllers.directions import DirectionsController
 from .controllers.exporting import curves_table, write_atomically
 from .controllers.kernel import KernelController
-from .controllers.opening import OpeningController
+from .controllers.opening import OpeningController, Read
 from .controllers.operators import OperatorStore
 from .controllers.running import explain
 from .models.display import Display
@@ -60,6 +60,7 @@ class Assembly:
         theme: str | None = None,
         pick: list[int] | None = None,
         store: QSettings | None = None,
+        read: Read | None = None,
     ) -> None:
         self.app = application() if app is None else app
         self._files, self._screenshot, self._picks = files, screenshot, pick or []
@@ -69,15 +70,15 @@ class Assembly:
         if screenshot is not None and store is None:  # a picture must not depend on what somebody set up earlier
             store = QSettings(os.devnull, QSettings.Format.IniFormat)
         self.window = MainWindow(self.session, self.results, self.display, Settings(store), _galleries())
-        self._control()
+        self._control(read)
         if theme is not None:
             self.display.set("theme", theme)
         if size is not None:
             self.window.resize(*size)
 
-    def _control(self) -> None:
+    def _control(self, read: Read | None) -> None:
         run, operators = self.worker.submit, OperatorStore()
-        self.opening = OpeningController(self.session, self.results, run)
+        self.opening = OpeningController(self.session, self.results, run, read)
         self.opening.opened, self.opening.failed = self._opened, self._failed
         self.kernel = KernelController(self.session, self.results, run, operators)
         self.directions = DirectionsController(self.session, self.results, self.display, run, operators)

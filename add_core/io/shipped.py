@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -125,13 +125,30 @@ def shipped_place(name: str) -> ShippedPlace | None:
 
 
 @dataclass(frozen=True, eq=False)
-class _Stored:
+class _Geometry:
     """Vertices as 16-bit steps: v = lo + scale · q, exact to half a step (0.02 mm)."""
 
     steps: NDArray[np.uint16]  # (shapes, n, 3)
     lo: FloatArray
     scale: float
     faces: IntArray
+
+    @classmethod
+    def read(cls, file_name: str) -> _Geometry:
+        with np.load(asset("shapes", file_name), allow_pickle=False) as file:
+            return cls(
+                steps=file["vertices_q"],
+                lo=file["lo"].astype(np.float64),
+                scale=float(file["scale"]),
+                faces=file["faces"].astype(np.int64),
+            )
+
+
+@dataclass(frozen=True, eq=False)
+class _Stored:
+    """What names the shapes of a file; their geometry is read when the first of them is asked for."""
+
+    file_name: str
     symmetry: IntArray
     subjects: IntArray
     poses: tuple[str, ...]
@@ -140,17 +157,19 @@ class _Stored:
     def read(cls, file_name: str) -> _Stored:
         with np.load(asset("shapes", file_name), allow_pickle=False) as file:
             return cls(
-                steps=file["vertices_q"],
-                lo=file["lo"].astype(np.float64),
-                scale=float(file["scale"]),
-                faces=file["faces"].astype(np.int64),
+                file_name=file_name,
                 symmetry=read_only(file["sym"].astype(np.int64)),
                 subjects=file["subject"].astype(np.int64),
                 poses=tuple(str(pose) for pose in file["pose"]),
             )
 
+    @cached_property
+    def geometry(self) -> _Geometry:
+        return _Geometry.read(self.file_name)
+
     def mesh(self, index: int, name: str) -> TriangleMesh:
-        return TriangleMesh(self.lo + self.scale * self.steps[index], self.faces, name=name)
+        kept = self.geometry
+        return TriangleMesh(kept.lo + kept.scale * kept.steps[index], kept.faces, name=name)
 
 
 def _readable(pose: str) -> str:

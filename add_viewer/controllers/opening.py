@@ -16,12 +16,16 @@ from ..models.session import Session
 from ..models.shapes import OpenShape, Shape
 from .running import Run, explain
 
+Read = Callable[[str], OpenShape]
+"""Reads what a reference names, as `read_shape` does."""
+
 
 class OpeningController:
     """Reads shapes off the window's thread; one that cannot be read leaves the session as it was."""
 
-    def __init__(self, session: Session, results: Results, run: Run) -> None:
+    def __init__(self, session: Session, results: Results, run: Run, read: Read | None = None) -> None:
         self._session, self._results, self._run = session, results, run
+        self._read = read or read_shape
         self._waiting = 0
         self.opened: Callable[[OpenShape], None] = lambda shape: None
         self.failed: Callable[[str, str], None] = lambda reference, reason: None
@@ -33,7 +37,7 @@ class OpeningController:
         self._results.set_busy(f"Opening {Path(name).name if '/' in name and Path(name).exists() else name} …")
         self._run(
             "open",
-            lambda: read_shape(name),
+            lambda: self._read(name),
             done=self._done,
             failed=lambda error: self._failed(name, error),
             queue=True,

@@ -15,6 +15,7 @@ from matplotlib.backend_bases import MouseEvent
 from matplotlib.backends.backend_qtagg import FigureCanvasQTAgg
 from matplotlib.figure import Figure
 from PySide6.QtCore import QEvent, QSize, Qt, QTimer
+from PySide6.QtGui import QShowEvent
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QStackedLayout, QVBoxLayout, QWidget
 
 from ..models.display import Display
@@ -27,6 +28,8 @@ from .theme import GRID, LIGHT, Theme
 _PATIENCE = 100
 """Milliseconds that the crosshair waits for the kernel's picture."""
 
+_FIRST_PATIENCE = 300
+"""Milliseconds that the axes wait for the shape's first picture: drawing them takes as long as a hundred curves."""
 
 LEGEND = "Thick: the shown t.  Thin: t/10, dashed: 10 t.  Right: thick AHKS at θ, thin HKS (α = 0) at equal t·λ₁."
 
@@ -66,7 +69,7 @@ class CurvePanel(QWidget):
     def _connect(self) -> None:
         self._frame = QTimer(self, singleShot=True, interval=_PATIENCE)
         self._frame.timeout.connect(self._draw_moving)
-        self._renewal = QTimer(self, singleShot=True, interval=_PATIENCE)
+        self._renewal = QTimer(self, singleShot=True)
         self._renewal.timeout.connect(self._draw_all)
         self.canvas.place = self._place
         for event in ("button_press_event", "motion_notify_event"):
@@ -91,8 +94,8 @@ class CurvePanel(QWidget):
         self._legend.setText(LEGEND)
         if not self.scene().shown:
             self._draw_moving()  # nothing to fit axes to yet, and a kernel is waited for
-        elif not self._renewal.isActive():
-            self._renewal.start()
+        else:
+            self._renew()
 
     def _move(self) -> None:
         if not self._frame.isActive():
@@ -103,6 +106,10 @@ class CurvePanel(QWidget):
         if self._frame.isActive():
             self._frame.stop()
             self._draw_moving()
+
+    def _renew(self, patience: int = _PATIENCE) -> None:
+        if not self._renewal.isActive():
+            self._renewal.start(patience)
 
     def _place(self) -> None:
         ratio = self.figure.dpi / self.canvas.device_pixel_ratio / 72.0  # device-independent pixels in a point
@@ -119,13 +126,18 @@ class CurvePanel(QWidget):
             scene = self.scene()
             if self.plots.fits(scene):
                 self.canvas.draw_artists(self.plots.moving_artists(scene))
-            elif not self._renewal.isActive():
-                self._renewal.start()
+            else:
+                self._renew()
 
     def show_theme(self, theme: Theme) -> None:
         """Draw the plots in the theme's colours."""
         self._theme = theme
-        self._draw_all()
+        if self.isVisible():
+            self._draw_all()
+
+    def showEvent(self, event: QShowEvent) -> None:
+        super().showEvent(event)
+        self._renew(_FIRST_PATIENCE)
 
     # -- what a person does -------------------------------------------------------------------------------------------
 
