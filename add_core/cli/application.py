@@ -12,7 +12,7 @@ from typing import NoReturn
 import click
 
 from .. import __version__
-from ..errors import AddError
+from ..errors import AddError, Cancelled
 
 COMMANDS = ("info", "kernel", "spectra", "describe", "match", "symmetry", "evaluate", "train", "cache")
 """Each is a module of this package with a click command named `command`."""
@@ -69,6 +69,9 @@ def _run(arguments: list[str] | None) -> int:
     except click.ClickException as error:
         complain(f"{error.format_message()} Try {_path_of(error)} --help.")
         return MISTAKE
+    except Cancelled as error:
+        complain(error)
+        return INTERRUPTED
     except AddError as error:
         complain(error)
         return MISTAKE

@@ -54,7 +54,7 @@ REFINED = "+zoomout"
 @click.option("--alpha", type=float, default=50.0, show_default=True)
 @click.option("--angles", type=click.IntRange(min=1), default=16, show_default=True)
 @click.option("-o", "--output", type=click.Path(path_type=Path, file_okay=False), help="Folder for the report.")
-@click.option("--json", "as_json", is_flag=True, help="JSON lines on stdout: progress and the result.")
+@click.option("--json", "as_json", is_flag=True, help="JSON: the result on stdout, progress on stderr, a line each.")
 def command(
     data: str,
     variant: str,
@@ -81,13 +81,15 @@ def command(
     collection = COLLECTIONS[data]()
     chosen = chosen_pairs(collection, pairs, seed)
     found: dict[str, list[Scores]] = {method: [] for method in methods}
-    with progress("Pairs", as_json=as_json) as advance:
-        for done, (i, j) in enumerate(chosen):
-            advance(done, len(chosen))
-            pair = _Pair.of(collection, (i, j), variant, alpha=alpha, angles=angles, count=count)
-            for method in methods:
+    with progress("Pairs and descriptors", as_json=as_json) as advance:
+        for number, numbers in enumerate(chosen):
+            done, total = number * (1 + len(methods)), len(chosen) * (1 + len(methods))
+            advance(done, total)
+            pair = _Pair.of(collection, numbers, variant, alpha=alpha, angles=angles, count=count)
+            for order, method in enumerate(methods, start=1):
+                advance(done + order, total)
                 found[method].append(pair.scores(method, protocols, queries))
-        advance(len(chosen), len(chosen))
+        advance(total, total)
     scores = [averaged(found[method]) for method in methods]
     if output is not None:
         _save(scores, output, collection, variant, chosen, queries, count, as_json=as_json)

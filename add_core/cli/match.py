@@ -57,7 +57,7 @@ REFINEMENTS = ("none", "fm", "icp", "zoomout")
 @click.option(
     "--colors", type=click.Path(path_type=Path, dir_okay=False), help="Also write SECOND with FIRST's colours."
 )
-@click.option("--json", "as_json", is_flag=True, help="JSON lines on stdout: progress and the result.")
+@click.option("--json", "as_json", is_flag=True, help="JSON: the result on stdout, progress on stderr, a line each.")
 def command(
     first: str,
     second: str,

@@ -14,7 +14,9 @@ from .shapes import open_shape
 
 _Command = TypeVar("_Command", bound=Callable[..., Any])
 
-as_json = click.option("--json", "as_json", is_flag=True, help="JSON lines on stdout: progress and the result.")
+as_json = click.option(
+    "--json", "as_json", is_flag=True, help="JSON: the result on stdout, progress on stderr, a line each."
+)
 conductivity = click.option(
     "--conductivity",
     type=click.Choice(CONDUCTIVITIES),

@@ -24,10 +24,10 @@ def result(values: dict[str, Any], *, as_json: bool) -> None:
 
 @contextmanager
 def progress(title: str, *, as_json: bool) -> Iterator[Advance]:
-    """A bar on a terminal's stderr, or a JSON line on stdout for each step; call what it yields with (done, total)."""
+    """A bar on a terminal, or a JSON line for each step, on stderr; call what it yields with (done, total)."""
     if as_json:
         yield lambda done, total: click.echo(
-            json.dumps({"event": "progress", "title": title, "done": done, "total": total})
+            json.dumps({"event": "progress", "done": done, "total": total, "label": title}), err=True
         )
         return
     from rich.console import Console

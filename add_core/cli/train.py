@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
@@ -15,10 +15,10 @@ from ..io import SHIPPED, Collection, open_collection
 from ..operators import Conductivity
 from . import options
 from .reporting import result
+from .stopping import Report, stoppable
 
 _NETWORKS = ("ADD1", "ADD2", "ADD3", "mADD1", "mADD2", "mADD3", "mADD4")
 _FOLDER = click.Path(path_type=Path, file_okay=False)
-Report = Callable[[dict[str, Any]], object]
 
 
 @click.command("train")
@@ -66,7 +66,7 @@ def command(architecture: str, data: str, run: Path, as_json: bool, **chosen: An
         **{name: chosen[name] for name in named},
     )
     task = LearningTask.of(_collection(data), variations=chosen["variations"], seed=settings.seed)
-    with _json_lines() if as_json else _live() as report:
+    with _json_lines() if as_json else _live() as said, stoppable(said) as report:
         train(task, run, architecture=architecture, recipe=recipe, settings=settings, report=report)
     if not as_json:
         result({"model": str(run / "model.safetensors")}, as_json=False)

@@ -1,6 +1,9 @@
 """`add-core train` and `add-core describe` with what it made."""
 
 import json
+import signal
+import subprocess
+import sys
 
 import numpy as np
 import pytest
@@ -74,3 +77,21 @@ def test_mistakes_cost_one_line(capsys, tmp_path, monkeypatch, arguments, compla
     assert (status, out, err.count("\n")) == (2, "", 1)
     assert complaint in err
     assert not list(tmp_path.iterdir())
+
+
+def test_a_training_that_is_told_to_end_keeps_its_last_step(folder, tmp_path):
+    """SIGTERM is how a window pauses a training; the same command then goes on."""
+    few = ["--angles", "2", "--count", "30", "--splines", "8", "--pairs", "16", "--architecture", "mADD2"]
+    command = ["train", "--data", str(folder), "-o", str(tmp_path / "run"), "--json", "--steps", "100000", *few]
+    with subprocess.Popen(
+        [sys.executable, "-m", "add_core.cli", *command], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+    ) as process:
+        while json.loads(process.stdout.readline())["event"] != "step":
+            pass
+        process.send_signal(signal.SIGTERM)
+        out, err = process.communicate(timeout=60)
+    last = json.loads(out.splitlines()[-1])["step"]
+    assert process.returncode == 130
+    assert f"Stopped on request after step {last} of 100000" in err
+    kept = torch.load(tmp_path / "run" / "checkpoint.pt", weights_only=True)
+    assert kept["step"] == last

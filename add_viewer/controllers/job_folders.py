@@ -1,0 +1,136 @@
+"""Jobs on disk: each in a folder of its own, so that they outlive the window."""
+
+from __future__ import annotations
+
+import json
+import logging
+import shutil
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import platformdirs
+
+from ..models.jobs import Job, JobRequest
+from .exporting import write_atomically
+
+FORMAT = 1
+JOB_FILE, OUTPUT, LOG = "job.json", "output.jsonl", "log.txt"
+LOG_BYTES = 1 << 16
+
+_log = logging.getLogger(__name__)
+
+
+def default_home() -> Path:
+    """Where this platform keeps a person's data."""
+    return platformdirs.user_data_path("anisotropic-diffusion-descriptors", False) / "jobs"
+
+
+@dataclass(frozen=True)
+class Stamp:
+    """A process: its number, and when it began. pid 0 stands for none."""
+
+    pid: int = 0
+    began: str = ""
+
+    @classmethod
+    def of(cls, identity: Any) -> Stamp:
+        """The stamp of whatever has `pid` and `began`."""
+        return cls(identity.pid, identity.began)
+
+
+@dataclass(frozen=True)
+class KeptJob:
+    """A job as its folder tells it. process : runs or ran it. window : started it."""
+
+    job: Job
+    process: Stamp = Stamp()
+    window: Stamp = Stamp()
+
+
+def keep(kept: KeptJob) -> None:
+    """Write a job to its folder, whole or not at all. Raises OSError."""
+    job, request = kept.job, kept.job.request
+    content = {
+        "format": FORMAT,
+        "kind": request.kind,
+        "title": request.title,
+        "arguments": list(request.arguments),
+        "resumable": request.resumable,
+        "state": job.state,
+        "done": job.done,
+        "total": job.total,
+        "message": job.message,
+        "result": dict(job.result),
+        "hidden": job.hidden,
+        "process": [kept.process.pid, kept.process.began],
+        "window": [kept.window.pid, kept.window.began],
+    }
+    request.folder.mkdir(parents=True, exist_ok=True)
+    text = json.dumps(content, indent=1)
+
+    def write(path: Path) -> None:
+        path.write_text(text, encoding="utf-8")
+
+    write_atomically(request.folder / JOB_FILE, write)
+
+
+def kept_jobs(home: Path) -> list[KeptJob]:
+    """What the folders in `home` hold, oldest first; those that cannot be read are left alone."""
+    if not home.is_dir():
+        return []
+    found = [_read(folder) for folder in sorted(home.iterdir()) if (folder / JOB_FILE).is_file()]
+    return [kept for kept in found if kept is not None]
+
+
+def _read(folder: Path) -> KeptJob | None:
+    try:
+        content: dict[str, Any] = json.loads((folder / JOB_FILE).read_text(encoding="utf-8"))
+        if content["format"] != FORMAT:
+            raise ValueError(f"format {content['format']}")
+        arguments = tuple(str(argument) for argument in content["arguments"])
+        request = JobRequest(content["kind"], content["title"], arguments, folder, bool(content["resumable"]))
+        progress = {name: content[name] for name in ("state", "done", "total", "message", "result", "hidden")}
+        return KeptJob(Job(folder.name, request, **progress), Stamp(*content["process"]), Stamp(*content["window"]))
+    except (OSError, ValueError, KeyError, TypeError) as error:
+        _log.warning("%s is left alone: it holds no job that can be read (%s).", folder, error)
+        return None
+
+
+def forget(folder: Path) -> None:
+    """Delete a job with all that it wrote."""
+    shutil.rmtree(folder, ignore_errors=True)
+
+
+def log_of(folder: Path) -> str:
+    """What the job's command said, as a person reads it: its end, if it is long."""
+    lines = []
+    for name in (OUTPUT, LOG):
+        for line in _last_lines(folder / name):
+            text = _readable(line)
+            if text:
+                lines.append(text)
+    return "\n".join(lines)
+
+
+def _last_lines(path: Path) -> list[str]:
+    try:
+        with path.open("rb") as file:
+            file.seek(max(0, path.stat().st_size - LOG_BYTES))
+            return file.read().decode("utf-8", errors="replace").splitlines()
+    except OSError:
+        return []
+
+
+def _readable(line: str) -> str:
+    try:
+        event = json.loads(line)
+    except ValueError:
+        return line.rstrip()
+    if not isinstance(event, dict) or event.get("event") in ("progress", "step", "prepare"):
+        return ""
+    kind = event.pop("event", "")
+    facts = ", ".join(
+        f"{name} {value:.4g}" if isinstance(value, float) else f"{name} {value}" for name, value in event.items()
+    )
+    return f"{kind}: {facts}"
