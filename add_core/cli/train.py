@@ -47,8 +47,8 @@ def command(architecture: str, data: str, run: Path, as_json: bool, **chosen: An
     """Learn a descriptor of points from shapes with known correspondence.
 
     The run folder keeps prepared inputs, checkpoints and, from the first validation on, the best model so far,
-    model.safetensors. The same command goes on where it was stopped, to the same weights. What is called the test part of the data is not looked at; the last subject (or
-    the last tenth) of the training part is for validation.
+    model.safetensors. The same command goes on where it was stopped, to the same weights. What is called the test part
+    of the data is not looked at; the last subject (or the last tenth) of the training part is for validation.
     """
     from ..learning import InputRecipe, LearningTask, TrainingSettings, train
 

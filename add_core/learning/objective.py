@@ -45,7 +45,10 @@ class Objective:
     def _arithmetic(self) -> AbstractContextManager[object]:
         if self._settings.arithmetic == "float32":
             return nullcontext()
-        return torch.autocast(torch.device(self._settings.device).type, dtype=torch.bfloat16)
+        narrow: AbstractContextManager[object] = torch.autocast(
+            torch.device(self._settings.device).type, dtype=torch.bfloat16
+        )
+        return narrow
 
 
 def negative_pairs(batch: Batch, distances: Tensor, *, hard: bool) -> tuple[Tensor, Tensor]:

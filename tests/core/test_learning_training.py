@@ -19,8 +19,8 @@ from add_core.learning import InputRecipe, LearningTask, TrainingSettings, Train
 from add_core.learning.architectures import Architecture, build
 from add_core.learning.averaging import AveragedWeights
 from add_core.learning.inputs import Moments
-from add_core.learning.pairs import Batch, PairSampler
 from add_core.learning.objective import negative_pairs
+from add_core.learning.pairs import Batch, PairSampler
 from add_core.learning.settings import learning_rate
 from add_core.learning.training import CHECKPOINT, MODEL, fit
 from add_core.learning.training_set import PreparedShape, prepare
