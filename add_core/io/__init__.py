@@ -2,24 +2,28 @@
 
 from .arrays import save_arrays
 from .collection import Collection, Landmarks
-from .files import load_fields, load_shape, save_shape
+from .files import LoadedShape, load_fields, load_shape, load_shape_and_fields, save_shape
 from .folders import open_collection
 from .formats import extensions
+from .models import shipped_models
 from .shipped import SHIPPED, ShippedPlace, dogs, humans, poses, shipped_place
 
 __all__ = [
     "SHIPPED",
     "Collection",
     "Landmarks",
+    "LoadedShape",
     "ShippedPlace",
     "dogs",
     "extensions",
     "humans",
     "load_fields",
     "load_shape",
+    "load_shape_and_fields",
     "open_collection",
     "poses",
     "save_arrays",
     "save_shape",
+    "shipped_models",
     "shipped_place",
 ]

@@ -6,6 +6,7 @@ import logging
 import os
 import stat
 from collections.abc import Mapping
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -33,9 +34,26 @@ def load_shape(path: StrPath) -> Shape:
 
     Raises ShapeFileError or GeometryError, with the file's name, if there is no such file or no shape in it.
     """
+    return load_shape_and_fields(path).shape
+
+
+@dataclass(frozen=True, eq=False)
+class LoadedShape:
+    """All of a file: the shape, and the quantities at its vertices: name → (n,) or (n, k)."""
+
+    shape: Shape
+    fields: Fields
+
+
+def load_shape_and_fields(path: StrPath) -> LoadedShape:
+    """The shape of `load_shape` with the fields of `load_fields`, {} for a format without any; the file is read once.
+
+    Raises as `load_shape` does.
+    """
     path = Path(path)
     try:
-        return _contents(path).shape(path.stem)
+        contents = _contents(path)
+        return LoadedShape(contents.shape(path.stem), contents.fields)
     except AddError as error:
         raise type(error)(f"{path}: {error}") from None
 

@@ -1,12 +1,13 @@
 """Learned descriptors: the networks of the paper, their training, and trained models. Needs torch."""
 
+from ..io import shipped_models
 from .architectures import Architecture, Network, build_network
 from .inputs import InputRecipe
 from .layers import ASF, FC, SC, ReLU, Softmax
 from .losses import multinomial_loss, siamese_loss, soft_nearest_loss
-from .model import Model, load_model, shipped_models
+from .model import Model, load_model
 from .runs import LearningTask, train
-from .settings import TrainingSettings
+from .training import TrainingSettings
 from .training_set import TrainingShape, places_of
 
 __all__ = [

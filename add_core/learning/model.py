@@ -17,6 +17,7 @@ from .._assets import asset
 from .._check import FloatArray, one_of
 from ..errors import AddError, ParameterError, ShapeFileError
 from ..geometry import PointCloud, TriangleMesh
+from ..io import shipped_models
 from .architectures import Architecture, Network, build
 from .inputs import InputRecipe, Inputs, Moments, Progress
 
@@ -118,15 +119,6 @@ def load_model(model: str | Path) -> Model:
         if isinstance(error, AddError):
             raise
         raise ShapeFileError(f"{path}: is damaged, or holds no model: {error}.") from None
-
-
-def shipped_models() -> tuple[str, ...]:
-    """Names that `load_model` knows."""
-    try:
-        folder = asset("models", "README.md").parent
-    except ShapeFileError:
-        return ()
-    return tuple(sorted(path.stem for path in folder.glob("*.safetensors")))
 
 
 def _shipped(name: str) -> Path:

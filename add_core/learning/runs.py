@@ -14,8 +14,7 @@ from ..io import Collection
 from .architectures import SPECIFICATIONS, build_network, default_alphas
 from .inputs import InputRecipe
 from .model import Model
-from .settings import TrainingSettings
-from .training import Report, fit
+from .training import Report, TrainingSettings, fit
 from .training_set import Precision, TrainingShape, places_of, prepare
 from .variations import vary
 

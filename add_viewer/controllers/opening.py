@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from add_core.geometry import normalize
-from add_core.io import ShippedPlace, load_shape, shipped_place
+from add_core.io import ShippedPlace, load_shape_and_fields, shipped_place
 
 from ..models.results import Results
 from ..models.session import Session
@@ -69,9 +69,10 @@ def read_shape(reference: str) -> OpenShape:
     if place is not None:
         return _read_shipped(place)
     path = Path(reference).expanduser()
-    shape = load_shape(path)
+    loaded = load_shape_and_fields(path)
     key = str(path.resolve())
-    return _open_shape(shape, key=key, reference=key, name=shape.name or path.stem)
+    opened = _open_shape(loaded.shape, key=key, reference=key, name=loaded.shape.name or path.stem)
+    return replace(opened, fields=loaded.fields)
 
 
 def _read_shipped(place: ShippedPlace) -> OpenShape:

@@ -130,6 +130,7 @@ class ShapeField:
     title, notes : of the colour bar: the quantity, then its unit and scale. caption : parameters, under the name.
     symbol, unit : for the value under the cursor: "h" and "/⌀²".
     best : vertices that deserve a small mark, the best first.
+    message : why there is neither, and what is being done or has to be done about it.
     """
 
     shape: str
@@ -144,6 +145,7 @@ class ShapeField:
     symbol: str = ""
     unit: str = ""
     best: tuple[int, ...] = ()
+    message: str = ""
 
     @property
     def position(self) -> FloatArray | None:

@@ -13,7 +13,7 @@ from .diffusion import Diffusion
 from .fields import FieldChoice
 from .matching import Matching
 from .picks import PICK_LIMIT, Pick, free_slot
-from .shapes import OpenShape
+from .shapes import IntArray, OpenShape
 
 UNDO_LIMIT = 200
 
@@ -114,6 +114,14 @@ class Session:
         """Make another of the open shapes the active one."""
         if self.state.shape(key) is not None:
             self._apply("show", replace(self.state, active_key=key))
+
+    def learn_symmetry(self, key: str, symmetry: IntArray, confidence: float) -> None:
+        """Keep the mirror map (n,) that was found for a shape."""
+        shapes = tuple(
+            replace(each, symmetry=symmetry, symmetry_confidence=confidence) if each.key == key else each
+            for each in self.state.shapes
+        )
+        self._apply("symmetry", replace(self.state, shapes=shapes))
 
     def move_shape(self, key: str, index: int) -> None:
         """Put a shape at another place among the views."""

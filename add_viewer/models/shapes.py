@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,6 +11,7 @@ from numpy.typing import NDArray
 from add_core.geometry import PointCloud, TriangleMesh
 
 Shape = TriangleMesh | PointCloud
+FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
 
 
@@ -22,7 +24,9 @@ class OpenShape:
     shape : scaled to unit geodesic diameter, so that α and t compare between shapes.
     diameter : geodesic diameter in the file's own unit: own length = diameter × shown length.
     unit : the file's own length unit, "" if unknown.
-    symmetry : (n,) the mirror of every vertex, or None.
+    symmetry : (n,) the mirror of every vertex, or None. symmetry_confidence : 0 to 1 where the shape itself was
+        asked for it, None where it is known.
+    fields : per-vertex quantities that came with the file, each (n,) or (n, k).
     up, front : axes such as "+z" and "-y"; "" if unknown.
     """
 
@@ -33,6 +37,8 @@ class OpenShape:
     diameter: float
     unit: str = ""
     symmetry: IntArray | None = None
+    symmetry_confidence: float | None = None
+    fields: Mapping[str, FloatArray] = field(default_factory=dict)
     up: str = ""
     front: str = ""
 
@@ -45,6 +51,13 @@ class OpenShape:
         if self.symmetry is None or int(self.symmetry[vertex]) == vertex:
             return None
         return int(self.symmetry[vertex])
+
+    def shares_vertices_with(self, other: OpenShape) -> bool:
+        """Whether equal vertex numbers are the same place: meshes with the same triangles."""
+        one, two = self.shape, other.shape
+        if one is two:
+            return True
+        return isinstance(one, TriangleMesh) and isinstance(two, TriangleMesh) and np.array_equal(one.faces, two.faces)
 
     @property
     def scale_sentence(self) -> str:

@@ -1,0 +1,105 @@
+"""Descriptors of the open shapes: computed by processes, held in memory."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from add_core.errors import ShapeFileError
+from add_core.io import load_fields
+
+from ..models.descriptor_names import PLAIN, descriptor_name
+from ..models.shapes import OpenShape, Shape
+from .answers import Answers
+
+FloatArray = NDArray[np.float32]
+
+COUNT = 300
+"""K, as in the paper; matching takes the same, so that both find the same spectra on disk."""
+
+
+@dataclass(frozen=True)
+class DescriptorQuestion:
+    """The descriptor `name` of every vertex of a shape. stamp : when the file of a trained model was written."""
+
+    reference: str
+    shape: Shape
+    name: str
+    shape_name: str = field(compare=False)
+    stamp: int = 0
+
+    kind = "describe"
+    file_name = "descriptors.npz"
+
+    @property
+    def title(self) -> str:
+        return f"{descriptor_name(self.name).title} of {self.shape_name}"
+
+    def arguments(self, output: Path) -> tuple[str, ...]:
+        """Plain ones as they are compared: logarithms, each number standardised over the shape."""
+        if any(plain.name == self.name for plain in PLAIN):
+            count = str(min(COUNT, self.shape.vertex_count))
+            chosen = ("--descriptor", self.name, "--compared", "--count", count)
+            return ("describe", self.reference, *chosen, "-o", str(output))
+        return ("describe", self.name, self.reference, "-o", str(output))
+
+    def read(self, output: Path, said: Mapping[str, Any]) -> FloatArray:
+        """(n, d). Raises ShapeFileError if there is no row for each vertex."""
+        fields = load_fields(output)
+        (values,) = fields.values()
+        rows = np.ascontiguousarray(values if values.ndim == 2 else values[:, None], dtype=np.float32)
+        if len(rows) != self.shape.vertex_count:
+            raise ShapeFileError(
+                f"{self.reference} has {len(rows)} vertices by now, but {self.shape.vertex_count} when it was opened. "
+                "Open it again."
+            )
+        rows.flags.writeable = False
+        return rows
+
+
+class DescriptorStore:
+    """(shape, name) → (n, d) descriptors, and which names there are.
+
+    models : the person's trained models, newest first. shipped : names of learned ones that come with the app.
+    """
+
+    def __init__(
+        self, answers: Answers, models: Callable[[], tuple[str, ...]], shipped: Callable[[], tuple[str, ...]]
+    ) -> None:
+        self.answers = answers
+        self._models, self._shipped = models, shipped
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """What can be asked for now."""
+        return (*(plain.name for plain in PLAIN), *self._shipped(), *self._models())
+
+    def get(self, shape: OpenShape, name: str) -> FloatArray | None:
+        """The descriptors if they are there."""
+        found: FloatArray | None = self.answers.get(question_of(shape, name))
+        return found
+
+    def want(self, shape: OpenShape, name: str) -> FloatArray | None:
+        """The descriptors if they are there; otherwise a process begins to compute them."""
+        found: FloatArray | None = self.answers.want(question_of(shape, name))
+        return found
+
+    def message(self, shape: OpenShape, name: str) -> str:
+        """What is happening to them, in words."""
+        return self.answers.message(question_of(shape, name))
+
+
+def question_of(shape: OpenShape, name: str) -> DescriptorQuestion:
+    """The question for the descriptor as it is now: a model that trains on is another one at every checkpoint."""
+    stamp = 0
+    if Path(name).name != name:
+        try:
+            stamp = Path(name).stat().st_mtime_ns
+        except OSError:
+            stamp = -1
+    return DescriptorQuestion(shape.reference, shape.shape, name, shape.name, stamp)

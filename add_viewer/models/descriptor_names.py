@@ -1,0 +1,44 @@
+"""Descriptors by name: what people call them, and what they know, in a sentence."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+
+@dataclass(frozen=True)
+class DescriptorName:
+    """name : of the command and in sessions; the path of a trained model. title : for people. help : one sentence."""
+
+    name: str
+    title: str
+    help: str
+
+
+PLAIN = (
+    DescriptorName("hks", "HKS", "Heat kernel signature: how much heat stays, without direction."),
+    DescriptorName("si-hks", "SI-HKS", "Scale-invariant heat kernel signature: the same for a shape of any size."),
+    DescriptorName("wks", "WKS", "Wave kernel signature: band-pass filters, sharper than heat, without direction."),
+    DescriptorName("ahks", "AHKS", "Anisotropic heat kernel signature, α = 50, 16 directions: knows left from right."),
+    DescriptorName("wft", "WFT", "Windowed Fourier transform: which frequencies there are around a point."),
+)
+"""Those that need no learning."""
+
+_LEARNED = {
+    "humans-madd3": DescriptorName(
+        "humans-madd3", "mADD3", "Learned by the paper's network on people: sharp, and knows left from right."
+    ),
+}
+
+
+def descriptor_name(name: str) -> DescriptorName:
+    """What is known about any name: plain, shipped or a trained model's path."""
+    plain = next((each for each in PLAIN if each.name == name), None)
+    if plain is not None:
+        return plain
+    if name in _LEARNED:
+        return _LEARNED[name]
+    path = Path(name)
+    own = path.name != name
+    title = path.parent.name if own and path.stem in ("model", "best", "last", "checkpoint") else path.stem
+    return DescriptorName(name, title, "Your own trained model." if own else "A learned descriptor that ships.")
