@@ -38,15 +38,17 @@ _FOLDER = click.Path(path_type=Path, file_okay=False)
 @click.option("--noise", type=float, default=0.1, show_default=True, help="Added to the standardised inputs.")
 @click.option("--variations", type=int, default=0, show_default=True, help="Varied copies of each training shape.")
 @click.option("--patience", type=int, default=0, help="Stop after so many validations without improvement; 0: never.")
+@click.option("--arithmetic", type=click.Choice(("float32", "bfloat16")), default="float32", show_default=True)
+@click.option("--device", default="cpu", show_default=True, help="Of torch, such as cuda.")
 @click.option("--seed", type=int, default=0, show_default=True)
 @click.option("-o", "--output", "run", type=_FOLDER, required=True, help="Run folder.")
 @options.as_json
 def command(architecture: str, data: str, run: Path, as_json: bool, **chosen: Any) -> None:
     """Learn a descriptor of points from shapes with known correspondence.
 
-    The run folder keeps prepared inputs, checkpoints and at last model.safetensors. The same command goes on where it
-    was stopped, to the same weights. What is called the test part of the data is not looked at; the last subject (or
-    the last tenth) of the training part is for validation.
+    The run folder keeps prepared inputs, checkpoints and, from the first validation on, the best model so far,
+    model.safetensors. The same command goes on where it was stopped, to the same weights. What is called the test part
+    of the data is not looked at; the last subject (or the last tenth) of the training part is for validation.
     """
     from ..learning import InputRecipe, LearningTask, TrainingSettings, train
 
@@ -60,7 +62,7 @@ def command(architecture: str, data: str, run: Path, as_json: bool, **chosen: An
         conductivity=conductivity,
         isotropic=chosen["isotropic"],
     )
-    named = ("optimizer", "learning_rate", "steps", "pairs", "noise", "patience", "seed")
+    named = ("optimizer", "learning_rate", "steps", "pairs", "noise", "patience", "arithmetic", "device", "seed")
     settings = TrainingSettings(
         loss=chosen["loss"] or ("multinomial" if architecture == "mADD4" else "soft-nearest"),
         **{name: chosen[name] for name in named},

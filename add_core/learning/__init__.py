@@ -7,7 +7,7 @@ from .layers import ASF, FC, SC, ReLU, Softmax
 from .losses import multinomial_loss, siamese_loss, soft_nearest_loss
 from .model import Model, load_model
 from .runs import LearningTask, train
-from .training import TrainingSettings
+from .settings import TrainingSettings
 from .training_set import TrainingShape, places_of
 
 __all__ = [

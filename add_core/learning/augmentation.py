@@ -9,7 +9,7 @@ from scipy.sparse import csr_array
 from scipy.sparse.csgraph import dijkstra
 
 from .._check import FloatArray, IntArray, at_least_zero, count_in, positive, read_only
-from ..geometry import TriangleMesh, farthest_points
+from ..geometry import PointCloud, TriangleMesh, farthest_points
 
 WAVES = 12
 """Random plane waves in one smooth deformation: enough that no direction is special."""
@@ -17,12 +17,28 @@ WAVES = 12
 
 @dataclass(frozen=True, eq=False)
 class RemeshedTwin:
-    """A shape meshed anew. mesh : the twin. indices : (n,), the vertex of the old mesh that each of its vertices is,
-    −1 where it lies between old vertices.
+    """A shape meshed anew. mesh : the twin, of n vertices, each an old vertex or the middle of an old edge.
+
+    origin : (n,), the number of the old vertex, or that of the edge in `edges` of the old mesh plus its vertices.
+    old_count : vertices of the old mesh.
     """
 
     mesh: TriangleMesh
-    indices: IntArray
+    origin: IntArray
+    old_count: int
+
+    @property
+    def indices(self) -> IntArray:
+        """(n,): the vertex of the old mesh that each vertex is, −1 where it lies between old vertices."""
+        return read_only(np.where(self.origin < self.old_count, self.origin, -1))
+
+
+@dataclass(frozen=True, eq=False)
+class Scatter:
+    """Points taken from a mesh. cloud : of n points. origin : (n,), as for `RemeshedTwin`."""
+
+    cloud: PointCloud
+    origin: IntArray
 
 
 def bend(mesh: TriangleMesh, *, amplitude: float, wavelength: float, seed: int) -> TriangleMesh:
@@ -65,21 +81,21 @@ def blur(mesh: TriangleMesh, *, steps: int) -> TriangleMesh:
     return _with_vertices(mesh, vertices)
 
 
-def remesh(mesh: TriangleMesh, count: int, *, seed: int) -> RemeshedTwin:
+def remesh(mesh: TriangleMesh, count: int, *, seed: int, unevenness: float = 0.0) -> RemeshedTwin:
     """A mesh of about `count` vertices on the same surface, with a connectivity of its own.
 
-    Vertices are farthest points of the finely subdivided mesh, from a random start; faces are dual to their geodesic
-    Voronoi cells. Vertices that no face uses are left out. Cells that are no discs (on parts thinner than the new
-    edges) leave holes or edges of three faces, as careless meshings do.
+    Vertices are farthest points among the old vertices and the middles of old edges, from a random start; faces are
+    dual to their geodesic Voronoi cells. Vertices that no face uses are left out. Cells that are no discs (on parts
+    thinner than the new edges) leave holes or edges of three faces, as careless meshings do.
+    unevenness : about the standard deviation of the logarithm of the edges' length, which then differs from place to
+        place.
 
     Raises ParameterError if `count` is out of range.
     """
-    draw = np.random.default_rng(seed)
     coarse = _subdivided(mesh)
     fine = _subdivided(coarse)
-    count = count_in("count", count, 4, coarse.vertex_count)
-    used = np.flatnonzero(coarse.is_referenced)
-    seeds = farthest_points(coarse, count, start=int(draw.choice(used)))
+    seeds = _scattered(coarse, count, seed=seed, unevenness=unevenness)
+    count = len(seeds)
     edges = fine.edges
     lengths = np.linalg.norm(fine.vertices[edges[:, 0]] - fine.vertices[edges[:, 1]], axis=1)
     graph = csr_array((lengths, (edges[:, 0], edges[:, 1])), shape=(fine.vertex_count, fine.vertex_count))
@@ -92,7 +108,31 @@ def remesh(mesh: TriangleMesh, count: int, *, seed: int) -> RemeshedTwin:
     cells = np.unique(np.take_along_axis(cells, (first[:, None] + np.arange(3)) % 3, axis=1), axis=0)
     kept, faces = np.unique(cells, return_inverse=True)
     twin = TriangleMesh(coarse.vertices[seeds[kept]], faces.reshape(-1, 3), name=mesh.name)
-    return RemeshedTwin(twin, read_only(np.where(seeds[kept] < mesh.vertex_count, seeds[kept], -1)))
+    return RemeshedTwin(twin, read_only(seeds[kept]), mesh.vertex_count)
+
+
+def scatter(
+    mesh: TriangleMesh, count: int, *, seed: int, unevenness: float = 0.0, with_normals: bool = True
+) -> Scatter:
+    """A cloud of `count` points among the old vertices and the middles of old edges, as evenly as those of `remesh`.
+
+    with_normals : with the mesh's normals at these points, unless one of them has none.
+    Raises ParameterError if `count` is out of range.
+    """
+    coarse = _subdivided(mesh)
+    chosen = _scattered(coarse, count, seed=seed, unevenness=unevenness)
+    normals = coarse.vertex_normals[chosen]
+    known = with_normals and bool(normals.any(axis=1).all())
+    return Scatter(PointCloud(coarse.vertices[chosen], normals if known else None, mesh.name), read_only(chosen))
+
+
+def _scattered(mesh: TriangleMesh, count: int, *, seed: int, unevenness: float) -> IntArray:
+    """(count,): farthest points of the mesh as it would be in a space that is wider in some places than in others."""
+    start = int(np.random.default_rng(seed).choice(np.flatnonzero(mesh.is_referenced)))
+    count_in("count", count, 4, mesh.vertex_count)
+    amplitude = 0.25 * at_least_zero("unevenness", unevenness)  # found by trial on people
+    warped = bend(mesh, amplitude=amplitude, wavelength=0.2, seed=seed)
+    return farthest_points(warped, count, start=start)
 
 
 def _subdivided(mesh: TriangleMesh) -> TriangleMesh:

@@ -21,13 +21,15 @@ class Checkpoint:
     """All that a training needs to go on bit by bit; batches and noise follow from the step alone.
 
     about : settings and data, as JSON: a run goes on only with the same. step : steps done. history : scores so far.
-    network, optimizer : state dictionaries. best : weights of the best validation so far, None before the first.
+    network, average, optimizer : state dictionaries; average : of the weights' moving average.
+    best : averaged weights of the best validation so far, None before the first.
     """
 
     about: str
     step: int
     network: dict[str, Any]
     optimizer: dict[str, Any]
+    average: dict[str, Any] | None = None
     best: dict[str, Any] | None = None
     history: list[dict[str, Any]] = field(default_factory=list)
 

@@ -14,7 +14,8 @@ from ..io import Collection
 from .architectures import SPECIFICATIONS, build_network, default_alphas
 from .inputs import InputRecipe
 from .model import Model
-from .training import Report, TrainingSettings, fit
+from .settings import TrainingSettings
+from .training import Report, fit
 from .training_set import Precision, TrainingShape, places_of, prepare
 from .variations import vary
 

@@ -5,73 +5,30 @@ from __future__ import annotations
 import json
 import time
 from collections.abc import Callable, Sequence
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, replace
 from hashlib import blake2b
 from pathlib import Path
-from typing import Any, Literal, get_args
+from typing import Any
 
 import numpy as np
 import torch
-from torch import Tensor
 
-from .._check import IntArray, at_least_zero, count_in, one_of, positive
+from .._check import IntArray
 from ..errors import Cancelled, ConvergenceError, ParameterError
 from .architectures import Architecture, Network, build
+from .averaging import AveragedWeights
 from .checkpoints import Checkpoint
 from .inputs import InputRecipe, Moments
-from .losses import BALANCE, MARGIN, multinomial_loss, siamese_loss, soft_nearest_loss, squared_distances
-from .model import Model, Standardisation
-from .pairs import Batch, PairSampler
+from .model import Model
+from .objective import Objective
+from .pairs import PairSampler
+from .settings import TrainingSettings, learning_rate
 from .training_set import PreparedShape
 from .validation import Validator
 
-Loss = Literal["soft-nearest", "siamese", "multinomial"]
-Optimizer = Literal["adam", "adadelta"]
 Report = Callable[[dict[str, Any]], object]
 
 CHECKPOINT, MODEL = "checkpoint.pt", "model.safetensors"
-
-
-@dataclass(frozen=True)
-class TrainingSettings:
-    """How to train.
-
-    loss : "siamese", eq. (21); "multinomial", eq. (22), for networks that end in Softmax; or "soft-nearest".
-    optimizer : "adadelta" as in the paper (learning rate 1, ρ = 0.95, ε = 1e-6), or "adam" with cosine decay to 0.
-    learning_rate : None takes 1 or 0.001. steps : mini-batches in all. pairs : pairs of points in each.
-    noise : standard deviation of the noise added to standardised inputs.
-    reflections : learn from the mirror images of the shapes too, where a symmetry is known.
-    hard_negatives : of the siamese loss: the nearest wrong point of the batch beside the mirror image and a random one.
-    margin, balance : μ and γ of eq. (21). standardisation : see `Model`.
-    validate_every, checkpoint_every : steps. patience : stop after so many validations without a better CMC@1; 0 never.
-    """
-
-    loss: Loss = "soft-nearest"
-    optimizer: Optimizer = "adam"
-    learning_rate: float | None = None
-    steps: int = 3000
-    pairs: int = 192
-    noise: float = 0.1
-    reflections: bool = True
-    hard_negatives: bool = True
-    margin: float = MARGIN
-    balance: float = BALANCE
-    standardisation: Standardisation = "shape"
-    validate_every: int = 250
-    checkpoint_every: int = 100
-    patience: int = 0
-    seed: int = 0
-
-    def __post_init__(self) -> None:
-        one_of("loss", self.loss, get_args(Loss))
-        one_of("optimizer", self.optimizer, get_args(Optimizer))
-        one_of("standardisation", self.standardisation, get_args(Standardisation))
-        for name in ("steps", "validate_every", "checkpoint_every"):
-            count_in(name, getattr(self, name), 1, 1_000_000_000)
-        count_in("patience", self.patience, 0, 1_000_000)
-        at_least_zero("noise", self.noise)
-        if self.learning_rate is not None:
-            positive("learning_rate", self.learning_rate)
 
 
 def fit(
@@ -93,15 +50,19 @@ def fit(
     report : called with a dictionary for each event ("step", "validation", "done"); returning False stops the training
         after a checkpoint and raises Cancelled.
 
-    The model has the weights of the validation with the highest CMC@1, or the last ones without validation.
+    The model has the averaged weights of the validation with the highest CMC@1, or the last ones without validation.
+    Its file is there from the first validation on, or the first checkpoint without any, and is replaced as a whole by
+    each better one.
     Raises ParameterError for sets or settings that do not fit, ConvergenceError if the loss stops being a number.
     """
     chosen = settings or TrainingSettings()
     place = Path(folder)
     place.mkdir(parents=True, exist_ok=True)
-    run = _Run(architecture, recipe, shapes, chosen, validation, symmetry, place, report or (lambda event: None))
+    run = _Run(
+        architecture, recipe, shapes, chosen, validation, symmetry, place, report or (lambda event: None), card or {}
+    )
     run.go_on()
-    return run.finish(card or {})
+    return run.finish()
 
 
 class _Run:
@@ -117,9 +78,13 @@ class _Run:
         symmetry: IntArray | None,
         folder: Path,
         report: Report,
+        card: dict[str, Any],
     ) -> None:
         self.settings, self.recipe, self.folder, self.report = settings, recipe, folder, report
-        self.network = build(architecture, seed=settings.seed)
+        self.card = card
+        self.network = build(architecture, seed=settings.seed).to(settings.device)
+        self.average = AveragedWeights(self.network, settings.averaging)
+        self.objective = Objective(settings)
         _check_classes(self.network, settings, shapes)
         self.pooled = Moments.pooled([shape.moments for shape in shapes])
         moments = self.pooled if settings.standardisation == "set" else None
@@ -143,6 +108,7 @@ class _Run:
             raise ParameterError(f"{self.folder} holds a training of other shapes or settings. Choose another folder.")
         self.state = found
         self.network.load_state_dict(found.network)
+        self.average.network.load_state_dict(found.average or found.network)
         self.optimizer.load_state_dict(found.optimizer)
 
     def go_on(self) -> None:
@@ -157,6 +123,8 @@ class _Run:
                 self._validate()
             if last or state.step % settings.checkpoint_every == 0:
                 self._save()
+                if self.validator is None:
+                    self._publish(self.average.network, state.step)
             speed = (state.step - first) / max(time.monotonic() - since, 1e-9)
             event = {"event": "step", "step": state.step, "steps": settings.steps, "loss": loss, "per_second": speed}
             if self.report(event) is False:
@@ -167,14 +135,24 @@ class _Run:
         if self._is_exhausted():
             self._save()
 
-    def finish(self, card: dict[str, Any]) -> Model:
+    def finish(self) -> Model:
         """The model with the best weights, written to the folder."""
+        best = self.average.network
         if self.state.best is not None:
-            self.network.load_state_dict(self.state.best)
-        facts = {"settings": asdict(self.settings), "steps": self.state.step, "history": self.state.history, **card}
-        model = Model(self.network, self.recipe, self.pooled, self.settings.standardisation, facts)
-        model.save(self.folder / MODEL)
+            best.load_state_dict(self.state.best)
+        curve = [entry["cmc1"] for entry in self.state.history]
+        step = self.state.history[int(np.argmax(curve))]["step"] if curve else self.state.step
+        model = self._publish(best, step)
         self.report({"event": "done", "model": str(self.folder / MODEL), "steps": self.state.step})
+        return model
+
+    def _publish(self, network: Network, step: int) -> Model:
+        """Write a model of the weights that `network` had at `step`."""
+        facts = {"step": step, "steps": self.state.step, "settings": asdict(self.settings)}
+        facts |= {"history": self.state.history, **self.card}
+        model = Model(network.cpu(), self.recipe, self.pooled, self.settings.standardisation, facts)
+        model.save(self.folder / MODEL)
+        network.to(self.settings.device)
         return model
 
     def _step(self, step: int) -> float:
@@ -182,7 +160,7 @@ class _Run:
             group["lr"] = learning_rate(self.settings, step)
         batch = self.sampler.batch(step)
         self.network.train()
-        loss = self._loss(batch, step)
+        loss = self.objective.loss(self.network, batch, step)
         value = float(loss.detach())
         if not np.isfinite(value):
             raise ConvergenceError(
@@ -191,36 +169,20 @@ class _Run:
         self.optimizer.zero_grad(set_to_none=True)
         loss.backward()
         self.optimizer.step()
+        self.average.follow(self.network, step + 1)
         return value
-
-    def _loss(self, batch: Batch, step: int) -> Tensor:
-        settings = self.settings
-        inputs = torch.from_numpy(np.concatenate([batch.one, batch.two]))  # (2B, C, M)
-        if settings.noise > 0:
-            source = torch.Generator().manual_seed(
-                int(np.random.SeedSequence([settings.seed, step]).generate_state(1)[0])
-            )
-            inputs = inputs + settings.noise * torch.randn(inputs.shape, generator=source)
-        outputs = self.network.logits(inputs)
-        places = torch.from_numpy(np.array(batch.places))
-        if settings.loss == "multinomial":
-            return multinomial_loss(outputs, torch.cat([places, places]))
-        distances = squared_distances(*outputs.split(len(places)))
-        same = places[:, None] == places[None, :]
-        if settings.loss == "siamese":
-            negatives = distances[negative_pairs(batch, distances.detach(), hard=settings.hard_negatives)]
-            return siamese_loss(distances.diagonal(), negatives, margin=settings.margin, balance=settings.balance)
-        return soft_nearest_loss(distances, same & ~torch.eye(len(places), dtype=torch.bool))
 
     def _validate(self) -> None:
         assert self.validator is not None
-        self.network.eval()
-        scores = {"step": self.state.step, **asdict(self.validator.scores(self.network))}
+        network = self.average.network
+        scores = {"step": self.state.step, **asdict(self.validator.scores(network.cpu()))}
+        network.to(self.settings.device)
         best = max((entry["cmc1"] for entry in self.state.history), default=-1.0)
         self.state.history.append(scores)
         if scores["cmc1"] > best:
-            self.state.best = {name: value.clone() for name, value in self.network.state_dict().items()}
-        self.report({"event": "validation", **scores})
+            self.state.best = {name: value.clone() for name, value in network.state_dict().items()}
+            self._publish(network, self.state.step)
+        self.report({"event": "validation", **scores, "improved": scores["cmc1"] > best})
 
     def _is_exhausted(self) -> bool:
         """Whether the last `patience` validations brought nothing better."""
@@ -228,29 +190,9 @@ class _Run:
         return 0 < patience < len(curve) and max(curve[-patience:]) <= max(curve[:-patience])
 
     def _save(self) -> None:
-        saved = replace(self.state, network=self.network.state_dict(), optimizer=self.optimizer.state_dict())
+        weights = {"network": self.network.state_dict(), "average": self.average.network.state_dict()}
+        saved = replace(self.state, optimizer=self.optimizer.state_dict(), **weights)
         saved.save(self.folder / CHECKPOINT)
-
-
-def negative_pairs(batch: Batch, distances: Tensor, *, hard: bool) -> tuple[Tensor, Tensor]:
-    """Rows and columns of the negatives of eq. (21) in `distances` (B, B): mirrored, random, and hardest ones."""
-    count = len(batch.places)
-    rows = np.arange(count)
-    columns = [batch.mirror, np.roll(rows, 1 + count // 3)]
-    if hard:
-        same = torch.from_numpy(batch.places[:, None] == batch.places[None, :])
-        columns.append(distances.masked_fill(same, torch.inf).argmin(dim=1).numpy())
-    row, column = np.tile(rows, len(columns)), np.concatenate(columns)
-    usable = (column >= 0) & (batch.places[row] != batch.places[column])
-    return torch.from_numpy(row[usable]), torch.from_numpy(column[usable])
-
-
-def learning_rate(settings: TrainingSettings, step: int) -> float:
-    """The learning rate of a step: constant for ADADELTA, falling to 0 like a cosine for Adam."""
-    if settings.optimizer == "adadelta":
-        return 1.0 if settings.learning_rate is None else settings.learning_rate
-    start = 1e-3 if settings.learning_rate is None else settings.learning_rate
-    return float(start * 0.5 * (1 + np.cos(np.pi * step / settings.steps)))
 
 
 def _optimizer(network: Network, settings: TrainingSettings) -> torch.optim.Optimizer:

@@ -7,44 +7,59 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .._check import FloatArray
+from .._check import FloatArray, IntArray
 from ..errors import ParameterError
-from ..geometry import TriangleMesh, subsample
-from .augmentation import bend, blur, remesh, roughen
+from ..geometry import TriangleMesh
+from .augmentation import bend, blur, remesh, roughen, scatter
 from .training_set import UNKNOWN, TrainingShape
 
-BEND, WAVELENGTH = (0.001, 0.006), (0.12, 0.3)
+BEND, WAVELENGTH = (0.001, 0.010), (0.12, 0.5)
 """Amplitude and shortest wave of the other body, of the bounding box's diagonal."""
-ROUGHNESS = (0.01, 0.12)
-"""Of the skin, of the mean edge length; drawn evenly on a logarithmic scale."""
+SKIN, SCANNER = (0.05, 0.3), (0.01, 0.12)
+"""Amplitudes of other muscles and of a scanner's noise, of the mean edge length; even on a logarithmic scale."""
 COUNTS = (0.5, 1.1)
-"""Vertices of a new meshing, of the old one's."""
+"""Vertices of a new meshing, of the old one's; a cloud has up to four fifths of these."""
+UNEVENNESS = (0.0, 0.8)
+REMESHED, CLOUD = 0.38, 0.22
+"""Shares of the variations that get triangles of their own, and that are clouds of points."""
 
 
-def vary(item: TrainingShape, *, seed: int) -> TrainingShape:
-    """Another body of the same places: bent, then in half of the cases meshed anew and in an eighth sampled as a
-    cloud; then blurred or roughened or both. The places, shape (n,), go with the vertices that stay.
+def vary(item: TrainingShape, *, seed: int, middles: IntArray | None = None) -> TrainingShape:
+    """Another body of the same places as a scanner or another meshing would have it.
+
+    It is bent, perhaps blurred, perhaps given other muscles; then it keeps its triangles, or is meshed anew, evenly or
+    not, or becomes a cloud, with or without normals; and most get a scanner's noise. The places, shape (n,), go with
+    the vertices that stay. middles : (e,), places of the middles of the mesh's edges, see `Middles`; unknown without.
 
     A cloud given is returned as it is.
     """
     if not isinstance(item.shape, TriangleMesh):
         return item
     draw = np.random.default_rng(seed)
-    mesh, places = item.shape, np.asarray(item.places)
-    mesh = bend(mesh, amplitude=draw.uniform(*BEND), wavelength=draw.uniform(*WAVELENGTH), seed=seed)
-    kind = draw.random()
-    if kind < 0.5:
-        twin = remesh(mesh, max(4, int(draw.uniform(*COUNTS) * mesh.vertex_count)), seed=seed)
-        mesh, places = twin.mesh, np.where(twin.indices >= 0, places[twin.indices], UNKNOWN)
+    mesh = bend(item.shape, amplitude=draw.uniform(*BEND), wavelength=draw.uniform(*WAVELENGTH), seed=seed)
     if draw.random() < 0.3:
         mesh = blur(mesh, steps=int(draw.integers(1, 6)))
-    if draw.random() < 0.8:
-        amplitude = float(np.exp(draw.uniform(*np.log(ROUGHNESS))))
-        mesh = roughen(mesh, amplitude=amplitude, smoothing=int(draw.integers(0, 4)), seed=seed)
-    if kind > 0.875:
-        sample = subsample(mesh, max(4, int(draw.uniform(0.5, 0.8) * mesh.vertex_count)))
-        return TrainingShape(sample.cloud, places[sample.indices])
+    if draw.random() < 0.5:
+        mesh = roughen(mesh, amplitude=_even_logarithm(draw, SKIN), smoothing=int(draw.integers(5, 31)), seed=seed)
+    places = np.asarray(item.places)
+    known = np.concatenate([places, np.full(len(mesh.edges), UNKNOWN) if middles is None else middles])
+    kind, share = draw.random(), draw.uniform(*COUNTS)
+    unevenness = draw.uniform(*UNEVENNESS) if draw.random() < 0.5 else 0.0
+    if kind < REMESHED:
+        twin = remesh(mesh, max(4, int(share * mesh.vertex_count)), seed=seed, unevenness=unevenness)
+        mesh, places = twin.mesh, known[twin.origin]
+    if draw.random() < 0.7:
+        mesh = roughen(mesh, amplitude=_even_logarithm(draw, SCANNER), smoothing=int(draw.integers(0, 4)), seed=seed)
+    if kind > 1 - CLOUD:
+        count = max(4, int(0.8 * share * mesh.vertex_count))
+        with_normals = draw.random() < 2 / 3
+        part = scatter(mesh, count, seed=seed, unevenness=unevenness, with_normals=with_normals)
+        return TrainingShape(part.cloud, known[part.origin])
     return TrainingShape(mesh, places)
+
+
+def _even_logarithm(draw: np.random.Generator, ends: tuple[float, float]) -> float:
+    return float(np.exp(draw.uniform(*np.log(ends))))
 
 
 def blend(meshes: Sequence[TriangleMesh], weights: ArrayLike) -> TriangleMesh:

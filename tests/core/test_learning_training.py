@@ -16,10 +16,13 @@ from add_core.errors import Cancelled, ConvergenceError, ParameterError, ShapeFi
 from add_core.geometry import TriangleMesh
 from add_core.geometry.shapes import ellipsoid
 from add_core.learning import InputRecipe, LearningTask, TrainingSettings, TrainingShape, load_model, train
-from add_core.learning.architectures import Architecture
+from add_core.learning.architectures import Architecture, build
+from add_core.learning.averaging import AveragedWeights
 from add_core.learning.inputs import Moments
+from add_core.learning.objective import negative_pairs
 from add_core.learning.pairs import Batch, PairSampler
-from add_core.learning.training import CHECKPOINT, MODEL, fit, learning_rate, negative_pairs
+from add_core.learning.settings import learning_rate
+from add_core.learning.training import CHECKPOINT, MODEL, fit
 from add_core.learning.training_set import PreparedShape, prepare
 
 RECIPE = InputRecipe(alphas=(0.0, 30.0), angles=2, eigenpairs=30, splines=12)
@@ -198,7 +201,7 @@ def test_a_killed_run_ends_with_the_same_weights(shapes, tmp_path):
                 os.kill(process.pid, signal.SIGKILL if hasattr(signal, "SIGKILL") else signal.SIGTERM)
                 break
     assert (tmp_path / "killed" / CHECKPOINT).exists()
-    assert not (tmp_path / "killed" / MODEL).exists()
+    assert load_model(tmp_path / "killed" / MODEL).card["step"] == 8
     for name, value in weights(run(tmp_path / "killed", shapes)).items():
         assert_array_equal(value, whole[name])
 
@@ -210,6 +213,45 @@ def test_the_best_validation_is_what_is_kept(shapes, tmp_path):
     assert [entry["step"] for entry in model.card["history"]] == [8, 16, 24, 32]
     assert weights(again).keys() == weights(model).keys()
     assert max(curve) >= curve[-1]
+
+
+def test_the_best_model_so_far_can_be_used_while_training_goes_on(shapes, tmp_path):
+    steps = []
+
+    def look(event):
+        if event["event"] == "validation" and event["improved"]:
+            steps.append(event["step"])
+            assert load_model(tmp_path / MODEL).card["step"] == event["step"]
+
+    assert run(tmp_path, shapes, report=look).card["step"] == steps[-1]
+    assert steps[0] == QUICK.validate_every
+
+
+def test_without_validation_the_model_is_there_from_the_first_checkpoint(shapes, tmp_path):
+    def look(event):
+        if event.get("step") == 5:
+            assert load_model(tmp_path / MODEL).card["step"] == 4
+
+    assert fit(SMALL, RECIPE, shapes, tmp_path, settings=QUICK, report=look).card["step"] == QUICK.steps
+
+
+def test_averaged_weights_forget_the_start_and_then_move_slowly():
+    network = build(Architecture("one", "SC FC1", 1, 1, bias=False))
+    average, weight = AveragedWeights(network, 0.9), next(network.parameters())
+    with torch.no_grad():
+        weight.fill_(4.0)
+    average.follow(network, 1)
+    assert next(average.network.parameters()).item() == pytest.approx(0.9 * 4 + 0.1 * average_start(network))
+    average.follow(network, 10**6)
+    kept = next(average.network.parameters()).item()
+    with torch.no_grad():
+        weight.fill_(0.0)
+    average.follow(network, 10**6)
+    assert next(average.network.parameters()).item() == pytest.approx(0.9 * kept)
+
+
+def average_start(network):
+    return next(build(network.architecture).parameters()).item()
 
 
 def test_training_stops_early_when_nothing_gets_better(shapes, tmp_path):
@@ -258,7 +300,18 @@ def test_losses_that_do_not_fit_the_network_are_explained(shapes, tmp_path):
         fit(classifier, RECIPE, shapes, tmp_path, settings=TrainingSettings(loss="multinomial"))
 
 
-@pytest.mark.parametrize("setting", [{"steps": 0}, {"noise": -1.0}, {"loss": "hinge"}, {"learning_rate": 0.0}])
+@pytest.mark.parametrize(
+    "setting",
+    [
+        {"steps": 0},
+        {"noise": -1.0},
+        {"averaging": 1.0},
+        {"loss": "hinge"},
+        {"learning_rate": 0.0},
+        {"arithmetic": "float8"},
+        {"device": "cuda:99"},
+    ],
+)
 def test_settings_out_of_range_are_named(setting):
     with pytest.raises(ParameterError, match=next(iter(setting))):
         TrainingSettings(**setting)
