@@ -12,7 +12,6 @@ from PySide6.QtWidgets import (
     QDialogButtonBox,
     QFileDialog,
     QFormLayout,
-    QLabel,
     QVBoxLayout,
     QWidget,
 )
@@ -88,39 +87,3 @@ def ask_curves(parent: QWidget, folder: str, name: str) -> Path | None:
         return None
     path = Path(chosen)
     return path if path.suffix.lower() in CURVE_FILTERS.values() else path.with_suffix(CURVE_FILTERS[kind])
-
-
-SHORTCUTS = (
-    ("Click", "drop heat on a point"),
-    ("Shift + click", "add a point, up to eight"),
-    ("Alt + click", "add the mirror image of a point"),
-    ("Right click", "what can be done here"),
-    ("Esc", "clear the picked points"),
-    ("Drag", "turn the shape"),
-    ("Shift + drag, middle drag", "move it"),
-    ("Wheel, right drag", "come closer"),
-    ("Double click on a slider or the dial", "back to its default"),
-    ("Ctrl + drag on the dial", "snap to 15°"),
-    ("Arrow keys on the dial", "turn by 1°, with Ctrl by 15°"),
-    ("Space", "play θ from 0° to 180°"),
-    ("Ctrl + G", "pick a vertex by its number"),
-    ("1, 3, 4, 6, 7", "front, back, its left, its right, top"),
-    ("F", "fit the shape to the view"),
-    ("D, W, B", "directions, wireframe, colour bar"),
-    ("Ctrl + Z, Ctrl + Shift + Z", "undo, redo"),
-)
-
-
-def shortcut_dialog(parent: QWidget) -> QDialog:
-    """A sheet of what mouse and keyboard do."""
-    dialog = QDialog(parent)
-    dialog.setWindowTitle("Mouse and keyboard")
-    form = QFormLayout(dialog)
-    form.setContentsMargins(3 * GRID, 2 * GRID, 3 * GRID, 2 * GRID)
-    form.setHorizontalSpacing(3 * GRID)
-    form.setVerticalSpacing(GRID)
-    for key, meaning in SHORTCUTS:
-        label = QLabel(key)
-        label.setProperty("role", "heading")
-        form.addRow(label, QLabel(meaning))
-    return dialog

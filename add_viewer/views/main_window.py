@@ -25,6 +25,7 @@ from add_core import __version__
 from ..models.display import Display
 from ..models.results import Notice, Results
 from ..models.session import Session
+from .aids import Aids
 from .context_menu import context_menu
 from .curve_panel import CurvePanel
 from .icons import icon
@@ -64,6 +65,7 @@ class MainWindow(QMainWindow):
         self.parameters = ParameterPanel(session, results)
         self.curves = CurvePanel(session, results, display)
         self.panels = Panels(self, self.menus.docks)
+        self.aids = Aids(self)
         self._build()
         self._connect()
         self._show_theme()
@@ -187,6 +189,7 @@ class MainWindow(QMainWindow):
         apply_theme(theme)
         self.setWindowIcon(icon("mdi6.blur-radial", theme.accent))
         parts: list[Any] = [self.menus, self.view, self.start, self.message, self.parameters, self.curves, self.panels]
+        parts += [self.aids]
         for part in parts:
             part.show_theme(theme)
 

@@ -58,7 +58,8 @@ LOOKS = (
     Entry("top", "&Top", "7"),
 )
 HELP = (
-    Entry("shortcuts", "&Mouse and keyboard", "F1", "mdi6.keyboard-outline"),
+    Entry("palette", "&Command palette…", "Ctrl+Shift+P", "mdi6.text-search", "Do anything by typing its name"),
+    Entry("shortcuts", "&Mouse and keyboard", "F1; ?", "mdi6.keyboard-outline", "What mouse and keys do, on one sheet"),
     Entry("about", "&About", "", "mdi6.information-outline"),
 )
 SWITCHES = (
@@ -132,9 +133,9 @@ class Menus:
     def _action(self, entry: Entry) -> QAction:
         action = QAction(entry.text, self._window)
         if entry.key:
-            action.setShortcut(QKeySequence(entry.key))
+            action.setShortcuts(QKeySequence.listFromString(entry.key))
         words = entry.text.replace("&", "").rstrip("…")
-        key = f" ({entry.key})" if entry.key else ""
+        key = f" ({entry.key.replace('; ', ', ')})" if entry.key else ""
         action.setToolTip(f"{words}{key}" + (f"\n{entry.help}" if entry.help else ""))
         if entry.icon:
             self._icons.append((action, entry.icon))

@@ -30,7 +30,6 @@ class Saving:
         window.menus.on("curves", self.ask_curves)
         window.menus.on("open", self.ask_open)
         window.start.browse.connect(self.ask_open)
-        window.menus.on("shortcuts", lambda: dialogs.shortcut_dialog(window).open())
         window.menus.on("about", lambda: QMessageBox.about(window, "About", window.about_text))
 
     def ask_open(self) -> None:

@@ -42,8 +42,7 @@ class Settings:
 
     @property
     def recent(self) -> list[str]:
-        kept = self._store.value("recent", [])
-        return [kept] if isinstance(kept, str) else [str(each) for each in kept] if isinstance(kept, list) else []
+        return self._list("recent")
 
     def add_recent(self, reference: str) -> None:
         """Put `reference` first."""
@@ -52,6 +51,19 @@ class Settings:
 
     def clear_recent(self) -> None:
         self._store.setValue("recent", [])
+
+    @property
+    def recent_commands(self) -> list[str]:
+        """What was done through the command palette lately, the newest first."""
+        return self._list("palette/recent")
+
+    @recent_commands.setter
+    def recent_commands(self, names: list[str]) -> None:
+        self._store.setValue("palette/recent", names)
+
+    def _list(self, name: str) -> list[str]:
+        kept = self._store.value(name, [])
+        return [kept] if isinstance(kept, str) else [str(each) for each in kept] if isinstance(kept, list) else []
 
     @property
     def folder(self) -> str:

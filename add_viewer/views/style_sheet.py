@@ -41,6 +41,7 @@ QPushButton[primary="true"] { background: $accent; color: $on_accent; border-col
 QToolTip { background: $panel; color: $text; border: 1px solid $line; padding: 4px; }
 QLabel[role="muted"] { color: $muted; }
 QLabel[role="heading"] { font-weight: 600; }
+QLabel[role="key"] { color: $text; background: $field; border: 1px solid $line; border-radius: 4px; padding: 1px 6px; }
 QScrollArea, QListView { border: none; background: transparent; }
 QScrollBar { background: transparent; border: none; margin: 0; }
 QScrollBar:vertical { width: 10px; }
