@@ -14,6 +14,7 @@ from PySide6.QtWidgets import QApplication
 
 from add_core.io import SHIPPED
 
+from .controllers.carrying import CarryingController
 from .controllers.curves import CurvesController
 from .controllers.directions import DirectionsController
 from .controllers.exporting import curves_table, write_atomically
@@ -80,7 +81,8 @@ class Assembly:
         run, operators = self.worker.submit, OperatorStore()
         self.opening = OpeningController(self.session, self.results, run, read)
         self.opening.opened, self.opening.failed = self._opened, self._failed
-        self.kernel = KernelController(self.session, self.results, run, operators)
+        self.carrying = CarryingController(self.session, self.results)
+        self.kernel = KernelController(self.session, self.results, self.display, run, operators)
         self.directions = DirectionsController(self.session, self.results, self.display, run, operators)
         self.curves = CurvesController(self.session, self.results, run, self._curve_delay, operators)
         self.window.open_requested.connect(self.opening.open)
@@ -132,8 +134,12 @@ class Assembly:
         picks = self.session.state.active_picks
         if not picks:
             return True
-        curves = self.results.curves
-        return self.results.kernel is not None and len(curves) == len(picks) and all(c.is_complete for c in curves)
+        curves, heats = self.results.curves, any(choice.kind == "heat" for choice in self.session.state.choices)
+        return (
+            (self.results.kernel is not None or not heats)
+            and len(curves) == len(picks)
+            and all(c.is_complete for c in curves)
+        )
 
     def _save_screenshot(self) -> None:
         assert self._screenshot is not None

@@ -80,7 +80,7 @@ def main() -> None:
     photographer.save_window("mirror")
     photographer.assembly.display.set("arrows", True)
     photographer.assembly.display.set("theme", "dark")
-    photographer.wait(lambda: photographer.assembly.results.directions is not None)
+    photographer.wait(lambda: photographer.assembly.results.directions)
     photographer.save_window("dark")
     photographer.assembly.display.set("arrows", False)
     photographer.open("dogs/3")

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from itertools import count
 
 import numpy as np
 
@@ -21,34 +20,41 @@ PLACES = 700
 
 
 class DirectionsController:
-    """Computes the direction field of the active shape once somebody wants to see it."""
+    """Computes the direction field of every shown shape once somebody wants to see it."""
 
     def __init__(
         self, session: Session, results: Results, display: Display, run: Run, operators: OperatorStore
     ) -> None:
         self._session, self._results, self._display = session, results, display
         self._run, self._operators = run, operators
-        self._tickets = count(1)
-        self._latest = 0
-        session.active_changed.connect(self._request)
+        self._asked: set[OpenShape] = set()
+        for signal in (session.active_changed, session.shapes_changed, session.looks_changed):
+            signal.connect(self._request)
+        session.arrangement_changed.connect(self._request)
         display.changed.connect(lambda name: self._request() if name == "arrows" else None)
 
     def _request(self) -> None:
-        ticket = self._latest = next(self._tickets)
-        shape = self._session.state.active
-        known = self._results.directions
-        if shape is None or not self._display["arrows"] or (known is not None and known.shape == shape.key):
+        state = self._session.state
+        self._results.keep_directions({shape.key for shape in state.shapes})
+        self._asked &= set(state.shapes)
+        if not self._display["arrows"]:
             return
-        conductivity = self._session.state.diffusion.conductivity
+        for shape in state.shown:
+            if shape not in self._asked:
+                self._ask(shape, state.diffusion.conductivity)
+
+    def _ask(self, shape: OpenShape, conductivity: Conductivity) -> None:
+        self._asked.add(shape)
         self._run(
             "directions",
             lambda: direction_field(shape, conductivity, self._operators),
-            done=lambda field: self._done(ticket, field),
+            done=lambda field: self._done(shape, field),
             failed=lambda error: self._results.report(explain(error)),
+            queue=True,
         )
 
-    def _done(self, ticket: int, field: DirectionField) -> None:
-        if ticket == self._latest:
+    def _done(self, shape: OpenShape, field: DirectionField) -> None:
+        if shape in self._asked:  # it is still open
             self._results.set_directions(field)
 
 

@@ -23,9 +23,16 @@ class OperatorStore:
     """
 
     def __init__(self) -> None:
-        self._bases: _Latest[AnisotropicLaplacian] = _Latest(4)
-        self._operators: _Latest[AnisotropicLaplacian] = _Latest(6)
-        self._flows: _Latest[HeatFlow] = _Latest(4)
+        self._bases: _Latest[AnisotropicLaplacian] = _Latest()
+        self._operators: _Latest[AnisotropicLaplacian] = _Latest()
+        self._flows: _Latest[HeatFlow] = _Latest()
+        self.make_room(1)
+
+    def make_room(self, shapes: int) -> None:
+        """Keep enough for that many shapes at once, and no more: each flow holds a factorisation."""
+        count = max(1, shapes)
+        for kept, each in ((self._bases, 4), (self._operators, 6), (self._flows, 4)):
+            kept.resize(each + (count - 1) * (each // 2))
 
     def laplacian(self, shape: OpenShape, conductivity: Conductivity, alpha: float) -> AnisotropicLaplacian:
         """The operator of `shape`; frames and sparsity are shared between all α."""
@@ -57,9 +64,14 @@ class OperatorStore:
 class _Latest(Generic[_Value]):
     """A dictionary of the last few values used."""
 
-    def __init__(self, size: int) -> None:
-        self._size = size
+    def __init__(self) -> None:
+        self._size = 0
         self._kept: OrderedDict[tuple[object, ...], _Value] = OrderedDict()
+
+    def resize(self, size: int) -> None:
+        self._size = size
+        while len(self._kept) > size:
+            self._kept.popitem(last=False)
 
     def get(self, key: tuple[object, ...]) -> _Value | None:
         if key in self._kept:

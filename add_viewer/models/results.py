@@ -124,7 +124,7 @@ class Results:
         self.carried: dict[str, tuple[Pick, ...]] = {}
         self.maps: dict[tuple[str, str], IntArray] = {}
         self.curves: tuple[AutodiffusionCurves, ...] = ()
-        self.directions: DirectionField | None = None
+        self.directions: dict[str, DirectionField] = {}
         self.weyl_eigenvalue: float | None = None
         self.busy: str = ""
         self.progress: float | None = None
@@ -163,10 +163,13 @@ class Results:
             self.curves = curves
             self.curves_changed.emit()
 
-    def set_directions(self, directions: DirectionField | None) -> None:
-        if directions is not self.directions:
-            self.directions = directions
-            self.directions_changed.emit()
+    def set_directions(self, directions: DirectionField) -> None:
+        self.directions[directions.shape] = directions
+        self.directions_changed.emit()
+
+    def keep_directions(self, shapes: set[str]) -> None:
+        """Forget the direction fields of other shapes."""
+        self.directions = {key: field for key, field in self.directions.items() if key in shapes}
 
     def set_weyl_eigenvalue(self, value: float | None) -> None:
         """λ₁ of the current operator by Weyl's law, unit 1/length²; t = reach / λ₁."""

@@ -10,11 +10,11 @@ from ..models.session import Session
 _ALWAYS = ("fit", "front", "arrows", "wireframe", "clear", "screenshot")
 
 
-def context_menu(parent: QWidget, session: Session, actions: dict[str, QAction], vertex: int) -> QMenu:
-    """What makes sense at `vertex` of the shown shape, or beside it (-1)."""
+def context_menu(parent: QWidget, session: Session, actions: dict[str, QAction], key: str, vertex: int) -> QMenu:
+    """What makes sense at `vertex` of the shape `key`, or beside it (-1)."""
     menu = QMenu(parent)
-    if vertex >= 0 and session.state.active is not None:
-        _offer_vertex(menu, session, vertex)
+    if vertex >= 0 and session.state.shape(key) is not None:
+        _offer_vertex(menu, session, key, vertex)
         menu.addSeparator()
     for name in _ALWAYS:
         menu.addAction(actions[name])
@@ -22,14 +22,15 @@ def context_menu(parent: QWidget, session: Session, actions: dict[str, QAction],
     return menu
 
 
-def _offer_vertex(menu: QMenu, session: Session, vertex: int) -> None:
-    shape = session.state.active
-    menu.addAction(f"Drop heat on vertex {vertex}").triggered.connect(lambda: session.pick(vertex))
-    if any(pick.vertex == vertex for pick in session.state.active_picks):
+def _offer_vertex(menu: QMenu, session: Session, key: str, vertex: int) -> None:
+    state, pick = session.state, session.pick
+    shape = state.shape(key)
+    menu.addAction(f"Pick vertex {vertex}").triggered.connect(lambda: pick(vertex, shape=key))
+    if any(each.vertex == vertex for each in state.picks_on(key)):
         menu.addAction("Remove this point").triggered.connect(lambda: session.unpick(vertex))
     else:
-        menu.addAction("Add this point").triggered.connect(lambda: session.pick(vertex, add=True))
+        menu.addAction("Add this point").triggered.connect(lambda: pick(vertex, add=True, shape=key))
     if shape is not None and shape.mirror(vertex) is not None:
-        menu.addAction("Add its mirror point").triggered.connect(lambda: session.pick_mirror(vertex))
+        menu.addAction("Add its mirror point").triggered.connect(lambda: session.pick_mirror(vertex, shape=key))
     copy = menu.addAction(f"Copy the number {vertex}")
     copy.triggered.connect(lambda: QApplication.clipboard().setText(str(vertex)))

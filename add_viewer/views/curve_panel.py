@@ -18,10 +18,10 @@ from PySide6.QtCore import QEvent, QSize, Qt, QTimer
 from PySide6.QtGui import QShowEvent
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QStackedLayout, QVBoxLayout, QWidget
 
+from ..models.captions import describe
 from ..models.display import Display
 from ..models.results import Results
 from ..models.session import Session
-from .captions import describe
 from .curve_plots import CurvePlots, CurveScene
 from .theme import GRID, LIGHT, Theme
 

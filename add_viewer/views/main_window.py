@@ -33,6 +33,7 @@ from .menus import Menus
 from .message_bar import MessageBar
 from .panels import Panels
 from .parameter_panel import ParameterPanel
+from .scene import SceneView
 from .settings import Settings
 from .shape_view import IDLE_TEXT, ShapeView
 from .start_page import Gallery, StartPage
@@ -59,7 +60,7 @@ class MainWindow(QMainWindow):
         self.setAcceptDrops(True)
         self.setDockNestingEnabled(True)
         self.menus = Menus(self, display)
-        self.view = ShapeView(session, results, display)
+        self.scene = SceneView(session, results, display)
         self.start = StartPage(galleries)
         self.message = MessageBar()
         self.parameters = ParameterPanel(session, results)
@@ -75,12 +76,17 @@ class MainWindow(QMainWindow):
         self._show_active()
         self._show_history()
 
+    @property
+    def view(self) -> ShapeView:
+        """The view of the active shape."""
+        return self.scene.active_view
+
     # -- building -----------------------------------------------------------------------------------------------------
 
     def _build(self) -> None:
         self.pages = QStackedWidget()
         self.pages.addWidget(self.start)
-        self.pages.addWidget(self.view)
+        self.pages.addWidget(self.scene)
         centre = QWidget()
         column = QVBoxLayout(centre)
         column.setContentsMargins(0, 0, 0, 0)
@@ -121,16 +127,18 @@ class MainWindow(QMainWindow):
         self.results.noticed.connect(self._show_notice)
         self.display.changed.connect(lambda name: self._show_theme() if name == "theme" else None)
         QApplication.styleHints().colorSchemeChanged.connect(self._show_theme)
-        self.view.hovered.connect(self.hover_label.setText)
-        self.view.menu_requested.connect(self._show_context_menu)
+        self.scene.hovered.connect(self.hover_label.setText)
+        self.scene.menu_requested.connect(self._show_context_menu)
         self.start.chosen.connect(self._open_chosen)
         self.start.left.connect(self._show_active)
         looks = ("front", "back", "left", "right", "top")
         for name in looks:
-            self.menus.on(name, partial(self.view.canvas.look, name))
+            self.menus.on(name, partial(self.scene.look, name))
         tools = ("arrows", "wireframe", "fit", "undo", "redo", "screenshot")
-        self.view.show_tools([self.menus.actions[name] for name in tools])
-        self.menus.on("fit", self.view.canvas.fit)
+        self.scene.show_tools([self.menus.actions[name] for name in tools])
+        self.menus.on("fit", self.scene.fit)
+        self.session.arrangement_changed.connect(self._show_arrangement)
+        self.menus.on_arrangement(self.session.arrange)
         self.menus.on("undo", self.session.undo)
         self.menus.on("redo", self.session.redo)
         self.menus.on("clear", self.session.clear_picks)
@@ -146,14 +154,14 @@ class MainWindow(QMainWindow):
     def _show_active(self) -> None:
         shape = self.session.state.active
         self.start.show_way_back(None)
-        self.pages.setCurrentWidget(self.start if shape is None else self.view)
+        self.pages.setCurrentWidget(self.start if shape is None else self.scene)
         self.setWindowTitle(TITLE if shape is None else f"{shape.name} — {TITLE}")
         self.message.hide()
         self.parameters.play.setChecked(False)
         for name in ("close", "screenshot", "go_to", "fit", "play", "front", "back", "left", "right", "top"):
             self.menus.actions[name].setEnabled(shape is not None)
         self.hover_label.setText("" if shape is None else IDLE_TEXT)
-        self.panels.show(shape is not None and self.pages.currentWidget() is self.view)
+        self.panels.show(shape is not None and self.pages.currentWidget() is self.scene)
 
     def show_start(self) -> None:
         """Offer shapes to open; the session stays as it is."""
@@ -174,6 +182,9 @@ class MainWindow(QMainWindow):
         for name, on in enabled.items():
             self.menus.actions[name].setEnabled(on)
 
+    def _show_arrangement(self) -> None:
+        self.menus.show_arrangement(self.session.state.arrangement)
+
     def _show_busy(self) -> None:
         self.busy_label.setText(self.results.busy)
         self.progress.setVisible(bool(self.results.busy))
@@ -188,7 +199,7 @@ class MainWindow(QMainWindow):
         theme = theme_of(self.display["theme"])
         apply_theme(theme)
         self.setWindowIcon(icon("mdi6.blur-radial", theme.accent))
-        parts: list[Any] = [self.menus, self.view, self.start, self.message, self.parameters, self.curves, self.panels]
+        parts: list[Any] = [self.menus, self.scene, self.start, self.message, self.parameters, self.curves, self.panels]
         parts += [self.aids]
         for part in parts:
             part.show_theme(theme)
@@ -242,12 +253,12 @@ class MainWindow(QMainWindow):
         if self.session.state.active_key is not None:
             self.session.close_shape(self.session.state.active_key)
 
-    def _show_context_menu(self, place: QPoint, vertex: int) -> None:
-        self.context_menu(vertex).popup(place)
+    def _show_context_menu(self, place: QPoint, key: str, vertex: int) -> None:
+        self.context_menu(key, vertex).popup(place)
 
-    def context_menu(self, vertex: int) -> QMenu:
-        """What makes sense at `vertex`, or beside the shape (-1)."""
-        return context_menu(self, self.session, self.menus.actions, vertex)
+    def context_menu(self, key: str, vertex: int) -> QMenu:
+        """What makes sense at `vertex` of the shape `key`, or beside it (-1)."""
+        return context_menu(self, self.session, self.menus.actions, key, vertex)
 
     def dragEnterEvent(self, event: QDragEnterEvent) -> None:
         if any(url.isLocalFile() for url in event.mimeData().urls()):
@@ -263,7 +274,7 @@ class MainWindow(QMainWindow):
         self.parameters.play.setChecked(False)
         self.panels.show(True)
         self.settings.keep_window(self)
-        self.view.canvas.close()  # VTK must let go of the graphics context while it still exists
+        self.scene.close_views()
         super().closeEvent(event)
 
     @property

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from PySide6.QtGui import QAction, QActionGroup, QKeySequence
 from PySide6.QtWidgets import QMainWindow, QMenu
 
+from ..models.arrangement import Arrangement
 from ..models.display import Display
 from .icons import icon
 from .theme import Theme
@@ -68,6 +69,11 @@ SWITCHES = (
     Entry("colour_bar", "&Colour bar", "B", "mdi6.gradient-vertical"),
     Entry("relative_curves", "Curves ÷ their &mean over θ", "N", "mdi6.chart-bell-curve", "Or as they are"),
 )
+ARRANGING = (
+    Entry("linked", "&Link the cameras", "L", "mdi6.link-variant", "Turn one view, and all turn"),
+    Entry("common_range", "One &range of colours", "R", "mdi6.arrow-expand-vertical", "The same for all shapes"),
+)
+LAYOUT_NAMES = {"grid": "&Grid", "strip": "&One row", "single": "The &source alone"}
 CHOICES = {
     "theme": ("&Theme", {"system": "As the &system", "light": "&Light", "dark": "&Dark"}),
     "kernel_scale": ("Colour &scale", {"linear": "&Linear", "log": "Lo&garithmic, two decades"}),
@@ -116,9 +122,37 @@ class Menus:
         self._menu(menu, LOOKS)
         menu.addMenu(self._choice("up_axis"))
         menu.addSeparator()
+        self._arrangement_menu(menu)
+        menu.addSeparator()
         self.docks = menu.addMenu("&Panels")
         menu.addMenu(self._choice("theme"))
         return menu
+
+    def _arrangement_menu(self, menu: QMenu) -> None:
+        """What the session says of several views, unlike the switches, which are a person's taste."""
+        layouts, group = menu.addMenu("&Views of several shapes"), QActionGroup(self._window)
+        for value, text in LAYOUT_NAMES.items():
+            action = QAction(text, self._window, checkable=True, checked=value == "grid")
+            self.actions[f"layout:{value}"] = group.addAction(action)
+            layouts.addAction(action)
+        for entry in ARRANGING:
+            action = self._action(entry)
+            action.setCheckable(True)
+            menu.addAction(action)
+        self.show_arrangement(Arrangement())
+
+    def on_arrangement(self, arrange: Callable[..., object]) -> None:
+        """Let the arrangement's actions call `arrange(layout=…, linked=…, common_range=…)`."""
+        for value in LAYOUT_NAMES:
+            self.actions[f"layout:{value}"].triggered.connect(lambda _on, value=value: arrange(layout=value))
+        for entry in ARRANGING:
+            self.actions[entry.name].triggered.connect(lambda on, name=entry.name: arrange(**{name: on}))
+
+    def show_arrangement(self, arrangement: Arrangement) -> None:
+        """Tick what the session says."""
+        self.actions[f"layout:{arrangement.layout}"].setChecked(True)
+        for entry in ARRANGING:
+            self.actions[entry.name].setChecked(getattr(arrangement, entry.name))
 
     def _choice(self, name: str) -> QMenu:
         title, options = CHOICES[name]

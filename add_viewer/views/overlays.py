@@ -8,7 +8,8 @@ from PySide6.QtCore import QPointF, QRectF, QSize, Qt
 from PySide6.QtGui import QColor, QFont, QLinearGradient, QPainter, QPaintEvent, QPen
 from PySide6.QtWidgets import QWidget
 
-from add_core.drawing.colours import hex_colour, kernel_map
+from add_core.drawing.colour_maps import Tones, tone_map
+from add_core.drawing.colours import hex_colour
 
 from .theme import LIGHT, Theme, round_pen
 
@@ -48,35 +49,66 @@ class Overlay(QWidget):
 class ColourBar(Overlay):
     """What the colours mean: quantity, unit, scale."""
 
-    def __init__(self, parent: QWidget) -> None:
-        super().__init__(parent, QSize(208, 232))
-        self._title, self._lines, self._ticks = "", ("", ""), list[tuple[float, str]]()
+    LARGE, SMALL = QSize(208, 232), QSize(220, 46)
 
-    def show_scale(self, title: str, lines: tuple[str, str], ticks: list[tuple[float, str]]) -> None:
+    def __init__(self, parent: QWidget) -> None:
+        super().__init__(parent, self.LARGE)
+        self._title, self._lines, self._ticks = "", ("", ""), list[tuple[float, str]]()
+        self._tones: Tones = "kernel"
+
+    def show_scale(
+        self, title: str, lines: tuple[str, str], ticks: list[tuple[float, str]], tones: Tones = "kernel"
+    ) -> None:
         """`title` names the quantity, `lines` its unit and scale, `ticks` are positions in [0, 1] and labels."""
-        self._title, self._lines, self._ticks = title, lines, ticks
+        self._title, self._lines, self._ticks, self._tones = title, lines, ticks, tones
         self.update()
 
+    def show_small(self, on: bool, width: int) -> None:
+        """Lie below the shape, at most `width` wide, instead of standing beside it."""
+        self.setFixedSize(QSize(min(self.SMALL.width(), width), self.SMALL.height()) if on else self.LARGE)
+
     def draw(self, painter: QPainter) -> None:
-        width, height = self.width(), self.height()
+        if self.height() == self.SMALL.height():
+            self._draw_small(painter)
+            return
+        width = self.width()
         flags = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
         self._pen(painter, "text", bold=True)
-        painter.drawText(QRectF(0, 0, width, 18), flags, self._title)
+        title = painter.fontMetrics().elidedText(self._title, Qt.TextElideMode.ElideRight, width)
+        painter.drawText(QRectF(0, 0, width, 18), flags, title)
         self._pen(painter, "muted", size=0.9)
-        painter.drawText(QRectF(0, 18, width, 16), flags, self._lines[0])
-        painter.drawText(QRectF(0, 34, width, 16), flags, self._lines[1])
-        bar = QRectF(width - 17, 60, 16, height - 68)
-        ramp = QLinearGradient(bar.bottomLeft(), bar.topLeft())
-        for at, colour in zip(np.linspace(0, 1, 33), kernel_map(33), strict=True):
-            ramp.setColorAt(float(at), QColor(hex_colour(colour)))
-        painter.setPen(QPen(self.theme.colour("muted"), 0.75))
-        painter.setBrush(ramp)
-        painter.drawRect(bar)
+        for row, line in enumerate(self._lines):
+            painter.drawText(QRectF(0, 18 + 16 * row, width, 16), flags, line)
+        bar = QRectF(width - 17, 60, 16, self.height() - 68)
+        self._draw_ramp(painter, bar, QLinearGradient(bar.bottomLeft(), bar.topLeft()))
         self._pen(painter, "text", size=0.9)
         for at, label in self._ticks:
             y = bar.bottom() - at * bar.height()
             painter.drawLine(QPointF(bar.left() - 4, y), QPointF(bar.left(), y))
             painter.drawText(QRectF(0, y - 9, bar.left() - 8, 18), flags, label)
+
+    def _draw_small(self, painter: QPainter) -> None:
+        """A lying bar: the quantity over it, the values at its ends."""
+        self._pen(painter, "text", size=0.9)
+        low, high = self._ticks[0][1], self._ticks[-1][1]
+        metrics = painter.fontMetrics()
+        left, right = metrics.horizontalAdvance(low) + 8, metrics.horizontalAdvance(high) + 8
+        bar = QRectF(left, 26, self.width() - left - right, 12)
+        self._draw_ramp(painter, bar, QLinearGradient(bar.topLeft(), bar.topRight()))
+        self._pen(painter, "text", size=0.9)
+        middle = Qt.AlignmentFlag.AlignVCenter
+        painter.drawText(QRectF(0, 23, left - 6, 18), middle | Qt.AlignmentFlag.AlignRight, low)
+        painter.drawText(QRectF(self.width() - right + 6, 23, right - 6, 18), middle, high)
+        words = f"{self._title}, {self._lines[0]}" if self._lines[0] else self._title
+        fitting = metrics.elidedText(words, Qt.TextElideMode.ElideRight, self.width())
+        painter.drawText(QRectF(0, 2, self.width(), 18), Qt.AlignmentFlag.AlignHCenter, fitting)
+
+    def _draw_ramp(self, painter: QPainter, bar: QRectF, ramp: QLinearGradient) -> None:
+        for at, colour in zip(np.linspace(0, 1, 33), tone_map(self._tones, 33), strict=True):
+            ramp.setColorAt(float(at), QColor(hex_colour(colour)))
+        painter.setPen(QPen(self.theme.colour("muted"), 0.75))
+        painter.setBrush(ramp)
+        painter.drawRect(bar)
 
 
 class CornerLabel(Overlay):
@@ -85,6 +117,7 @@ class CornerLabel(Overlay):
     def __init__(self, parent: QWidget) -> None:
         super().__init__(parent, QSize(400, 60))
         self._name = self._detail = self._parameters = ""
+        self._is_source = False
 
     def show_text(self, name: str, detail: str) -> None:
         self._name, self._detail = name, detail
@@ -95,13 +128,32 @@ class CornerLabel(Overlay):
         self._parameters = text
         self.update()
 
+    def show_small(self, on: bool) -> None:
+        """Leave out what the field was computed for: the panel on the left says it too."""
+        self.setFixedHeight(38 if on else 60)
+
+    def show_source(self, on: bool) -> None:
+        """Mark the shape as the source among several: a dot in the accent colour before its name."""
+        self._is_source = on
+        self.update()
+
     def draw(self, painter: QPainter) -> None:
         self._pen(painter, "text", bold=True)
-        name = painter.fontMetrics().elidedText(self._name, Qt.TextElideMode.ElideMiddle, self.width())
-        painter.drawText(QRectF(0, 0, self.width(), 18), Qt.AlignmentFlag.AlignLeft, name)
+        indent = 14 if self._is_source else 0
+        self._line(painter, 0, self._name, indent)
         self._pen(painter, "muted", size=0.95)
-        painter.drawText(QRectF(0, 19, self.width(), 18), Qt.AlignmentFlag.AlignLeft, self._detail)
-        painter.drawText(QRectF(0, 36, self.width(), 18), Qt.AlignmentFlag.AlignLeft, self._parameters)
+        self._line(painter, 19, self._detail)
+        if self.height() > 40:
+            self._line(painter, 36, self._parameters)
+        if self._is_source:
+            painter.setPen(Qt.PenStyle.NoPen)
+            painter.setBrush(self.theme.colour("accent"))
+            painter.drawEllipse(QPointF(4, 9), 4, 4)
+
+    def _line(self, painter: QPainter, y: int, text: str, indent: int = 0) -> None:
+        width = self.width() - indent
+        fitting = painter.fontMetrics().elidedText(text, Qt.TextElideMode.ElideMiddle, width)
+        painter.drawText(QRectF(indent, y, width, 18), Qt.AlignmentFlag.AlignLeft, fitting)
 
 
 class AxesTriad(Overlay):

@@ -15,6 +15,7 @@ from .dial import ThetaDial
 from .icons import icon
 from .number_field import NumberField
 from .pick_list import PickList
+from .shape_list import ShapeList
 from .slider import SliderRow
 from .theme import GRID, Theme
 
@@ -40,7 +41,7 @@ class ParameterPanel(QWidget):
     def __init__(self, session: Session, results: Results, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._session, self._results = session, results
-        self.shape, self.model = QComboBox(), QComboBox()
+        self.shapes, self.model = ShapeList(session), QComboBox()
         self.alpha, self.time = _alpha_row(), _time_row()
         self.dial = ThetaDial()
         self.theta = NumberField(show_as=lambda value: f"{value:.4g}", step=lambda value, step: value + step)
@@ -50,7 +51,7 @@ class ParameterPanel(QWidget):
         self._player = Player(session, self)
         self._build()
         self._connect()
-        self._show_shapes()
+        self._show_scale()
         self._show_diffusion()
 
     # -- building -----------------------------------------------------------------------------------------------------
@@ -65,7 +66,7 @@ class ParameterPanel(QWidget):
         layout.setContentsMargins(2 * GRID, int(1.5 * GRID), 2 * GRID, GRID)
         layout.setSpacing(int(1.5 * GRID))
         for row in (
-            _named("Shape", self.shape),
+            self.shapes,
             _named("Conductivity", self.model, MODEL_HELP),
             self.alpha,
             self._theta_row(),
@@ -105,7 +106,6 @@ class ParameterPanel(QWidget):
     def _connect(self) -> None:
         session = self._session
         self.model.activated.connect(lambda: session.diffuse(conductivity=self.model.currentData()))
-        self.shape.activated.connect(lambda: session.show_shape(self.shape.currentData()))
         self.alpha.changed.connect(lambda value: session.diffuse(alpha=value))
         self.alpha.reset.connect(lambda: session.diffuse(alpha=DEFAULT.alpha))
         self.dial.turned.connect(lambda theta: session.diffuse(theta=theta))
@@ -117,8 +117,7 @@ class ParameterPanel(QWidget):
         for ended in (self.alpha.finished, self.time.finished, self.dial.released, self.theta.entered):
             ended.connect(session.end_gesture)
         self.play.toggled.connect(self._player.run)
-        session.shapes_changed.connect(self._show_shapes)
-        session.active_changed.connect(self._show_shapes)
+        session.active_changed.connect(self._show_scale)
         session.diffusion_changed.connect(self._show_diffusion)
         self._results.scale_changed.connect(self._show_diffusion)
 
@@ -129,13 +128,8 @@ class ParameterPanel(QWidget):
 
     # -- models to view -----------------------------------------------------------------------------------------------
 
-    def _show_shapes(self) -> None:
+    def _show_scale(self) -> None:
         state = self._session.state
-        with QSignalBlocker(self.shape):
-            self.shape.clear()
-            for each in state.shapes:
-                self.shape.addItem(each.name, each.key)
-            self.shape.setCurrentIndex(self.shape.findData(state.active_key))
         self.setEnabled(state.active is not None)
         note = "" if state.active is None else state.active.scale_sentence + ". α is in ⌀, t in ⌀²."
         self.scale_note.setText(note)

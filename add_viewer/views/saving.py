@@ -40,7 +40,7 @@ class Saving:
 
     def ask_picture(self) -> None:
         """Ask for size and place, then save the view."""
-        view = self._window.view
+        view = self._window.scene
         dialog = dialogs.PictureDialog(view.width(), view.height(), self._window)
         if dialog.exec() != QDialog.DialogCode.Accepted:
             return
@@ -50,7 +50,7 @@ class Saving:
 
     def save_picture(self, path: Path, choice: dialogs.PictureChoice) -> None:
         """Save the view as a PNG."""
-        view = self._window.view
+        view = self._window.scene
         image = view.picture(choice.scale, transparent=choice.transparent, labels=choice.labels)
         self._save(path, lambda temporary: save_image(image, temporary))
 

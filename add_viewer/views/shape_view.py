@@ -1,38 +1,44 @@
-"""The centre of the window: the canvas, its labels, and what they show of the models."""
+"""One shape in one view: the canvas, its labels, and what they show of the models."""
 
 from __future__ import annotations
 
 from PySide6.QtCore import QPoint, QSize, Qt, Signal
-from PySide6.QtGui import QAction, QImage, QPainter, QResizeEvent
-from PySide6.QtWidgets import QHBoxLayout, QToolButton, QVBoxLayout, QWidget
+from PySide6.QtGui import QImage, QPainter, QResizeEvent
+from PySide6.QtWidgets import QVBoxLayout, QWidget
 
+from ..models.captions import invitation
 from ..models.display import Display
-from ..models.kernel_scale import KernelScale
+from ..models.fields import ShapeField, in_common_range
 from ..models.results import Results
 from ..models.session import Session
 from ..models.shapes import OpenShape
 from .canvas import Canvas
-from .captions import describe
 from .overlays import AxesTriad, ColourBar, CornerLabel, Hint, Overlay
-from .theme import GRID, Theme
+from .theme import GRID, LIGHT, Theme
 
-_TOOL = 30
 IDLE_TEXT = "Click picks a point · drag turns · wheel zooms · right click for more"
 _FRONTS = {"y": "+z", "z": "-y"}
+_SMALL = QSize(460, 380)
+"""Views smaller than this in one direction have smaller labels."""
 
 
 class ShapeView(QWidget):
-    """Shows the active shape, its kernel and its picks; a click picks.
+    """Shows one open shape, the field of its panel and its picks; a click picks.
 
-    hovered : text for the status line. menu_requested : global place and vertex (-1 beside the shape).
+    key : of the shape, None before one is open. panel : 0, or 1 for the second field of a split view.
+    hovered : text for the status line. menu_requested : global place, key and vertex (-1 beside the shape).
     """
 
     hovered = Signal(str)
-    menu_requested = Signal(QPoint, int)
+    menu_requested = Signal(QPoint, str, int)
 
     def __init__(self, session: Session, results: Results, display: Display, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._session, self._results, self._display = session, results, display
+        self.key: str | None = None
+        self.panel = 0
+        self._shown: OpenShape | None = None
+        self._theme = LIGHT
         self.canvas = Canvas(self)
         layout = QVBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
@@ -40,37 +46,66 @@ class ShapeView(QWidget):
         self.colour_bar, self.label = ColourBar(self), CornerLabel(self)
         self.triad, self.hint = AxesTriad(self), Hint(self)
         self._overlays: tuple[Overlay, ...] = (self.colour_bar, self.label, self.triad, self.hint)
-        self._tools = QWidget(self)
         self._connect()
-        self._show_shape()
 
     def _connect(self) -> None:
+        session, results = self._session, self._results
         self.canvas.vertex_clicked.connect(self._clicked)
         self.canvas.vertex_hovered.connect(self._hover)
-        self.canvas.menu_requested.connect(self.menu_requested)
+        self.canvas.menu_requested.connect(
+            lambda place, vertex: self.menu_requested.emit(place, self.key or "", vertex)
+        )
         self.canvas.camera_moved.connect(self._show_axes)
-        self._session.active_changed.connect(self._show_shape)
-        self._session.picks_changed.connect(self._show_picks)
-        self._session.diffusion_changed.connect(self._turn)
-        self._results.kernel_changed.connect(self._show_kernel)
-        self._results.directions_changed.connect(self._show_directions)
+        for signal in (session.picks_changed, session.active_changed, results.carried_changed):
+            signal.connect(self._show_picks)
+        session.field_changed.connect(self._show_hint)
+        session.diffusion_changed.connect(self._turn)
+        session.looks_changed.connect(self._show_look)
+        session.arrangement_changed.connect(self._show_field)
+        results.fields_changed.connect(self._field_came)
+        results.directions_changed.connect(self._show_directions)
         self._display.changed.connect(self._show_display)
+
+    def bind(self, key: str | None, panel: int) -> bool:
+        """Show another shape or panel; True if the camera looks at another shape now."""
+        shape = None if key is None else self._session.state.shape(key)
+        fresh = shape is not self._shown
+        if fresh or panel != self.panel or key != self.key:
+            self.key, self.panel, self._shown = key, panel, shape
+            self._show_shape(fresh=fresh)
+        return fresh
+
+    @property
+    def shape(self) -> OpenShape | None:
+        """The shape that is shown."""
+        return self._shown
+
+    @property
+    def field(self) -> ShapeField | None:
+        """What is drawn, in the range that all views share if they do."""
+        if self.key is None:
+            return None
+        state = self._session.state
+        mine = self._results.fields.get((self.panel, self.key))
+        if mine is None or not state.arrangement.common_range:
+            return mine
+        others = [self._results.fields.get((self.panel, shape.key)) for shape in state.shown if shape.key != self.key]
+        return in_common_range([mine, *(each for each in others if each is not None)])[0]
 
     # -- models to view -----------------------------------------------------------------------------------------------
 
-    def _show_shape(self) -> None:
-        shape = self._session.state.active
-        up, front = self._axes(shape)
-        self.canvas.show_shape(shape, up, front)
-        self.canvas.show_wireframe(self._display["wireframe"])
+    def _show_shape(self, *, fresh: bool) -> None:
+        shape = self._shown
+        if fresh:
+            self.canvas.show_shape(shape, *self._axes(shape))
         if shape is None:
             self.label.show_text("", "")
         else:
-            faces = getattr(shape.shape, "faces", None)
-            kind = "points" if faces is None else "vertices"
+            kind = "points" if getattr(shape.shape, "faces", None) is None else "vertices"
             self.label.show_text(shape.name, f"{shape.vertex_count:,} {kind}")
+        self._show_look()
         self._show_picks()
-        self._show_kernel()
+        self._show_field()
         self._show_directions()
 
     def _axes(self, shape: OpenShape | None) -> tuple[str, str]:
@@ -84,37 +119,38 @@ class ShapeView(QWidget):
             chosen = "+z" if tall > 1.2 * deep else "+y"
         return chosen, _FRONTS[chosen[-1]]
 
-    def _show_picks(self) -> None:
-        picks = self._session.state.active_picks
-        self.canvas.show_picks(picks)
-        invites = self._session.state.active is not None and not picks
-        self.hint.show_text("Click the body to drop heat on it" if invites else "")
+    def _show_look(self) -> None:
+        if self.key is not None:
+            look = self._session.state.look(self.key)
+            self.canvas.show_wireframe(look.wireframe or self._display["wireframe"])
+            self.canvas.show_point_size(look.point_size)
 
-    def _show_kernel(self) -> None:
-        field = self._results.kernel
-        shape = self._session.state.active
-        shown = field if field is not None and shape is not None and field.shape == shape.key else None
-        self.colour_bar.setVisible(shown is not None and self._display["colour_bar"])
-        self.label.show_parameters(
-            "" if shown is None else describe(shown.diffusion, shown.diffusion.reach / shown.time)
-        )
-        if shown is None:
-            self.canvas.show_field(None)
-            return
-        single = len(shown.picks) == 1
-        values = shown.values if single else shown.shares
-        scale = KernelScale.of(values, self._display["kernel_scale"])
-        self.canvas.show_field(scale.position(values))
-        kind = "log scale" if scale.kind == "log" else "linear scale"
-        if single:
-            self.colour_bar.show_scale("Heat kernel h(x, ·)", ("unit 1/⌀²", kind), scale.ticks())
-        else:
-            self.colour_bar.show_scale("Heat kernels h(x, ·)", ("each ÷ its maximum", kind), scale.ticks())
+    def _show_picks(self) -> None:
+        state = self._session.state
+        own = state.picks_on(self.key)
+        self.canvas.show_picks(own or self._results.carried.get(self.key or "", ()))
+        self._show_hint()
+
+    def _show_hint(self) -> None:
+        state = self._session.state
+        self.hint.show_text(invitation(state) if self.key == state.active_key and self.panel == 0 else "")
+
+    def _field_came(self, panel: int, key: str) -> None:
+        if panel == self.panel and (key == self.key or self._session.state.arrangement.common_range):
+            self._show_field()
+
+    def _show_field(self) -> None:
+        field = self.field
+        self.canvas.show_field(field)
+        shows_bar = field is not None and field.values is not None and self._display["colour_bar"]
+        self.colour_bar.setVisible(shows_bar)
+        self.label.show_parameters("" if field is None else field.caption)
+        if field is not None and field.values is not None:
+            self.colour_bar.show_scale(field.title, field.notes, field.scale.ticks(), field.tones)
 
     def _show_directions(self) -> None:
-        directions, shape = self._results.directions, self._session.state.active
-        fits = directions is not None and shape is not None and directions.shape == shape.key
-        self.canvas.show_directions(directions if fits and self._display["arrows"] else None)
+        directions = self._results.directions.get(self.key or "")
+        self.canvas.show_directions(directions if self._display["arrows"] else None)
         self._turn()
 
     def _turn(self) -> None:
@@ -122,65 +158,61 @@ class ShapeView(QWidget):
 
     def _show_display(self, name: str) -> None:
         if name == "wireframe":
-            self.canvas.show_wireframe(self._display["wireframe"])
-        elif name in ("colour_bar", "kernel_scale"):
-            self._show_kernel()
+            self._show_look()
+        elif name == "colour_bar":
+            self._show_field()
         elif name == "arrows":
             self._show_directions()
         elif name == "up_axis":
-            self._show_shape()
+            self._show_shape(fresh=True)
 
     def _show_axes(self) -> None:
         self.triad.show_axes(self.canvas.camera_model.axes)
 
     def show_theme(self, theme: Theme) -> None:
         """Colours of background and labels."""
+        self._theme = theme
         self.canvas.show_theme(theme)
         for overlay in self._overlays:
             overlay.show_theme(theme)
 
-    def show_tools(self, actions: list[QAction]) -> None:
-        """Offer `actions` as icons in the upper right corner of the view."""
-        row = QHBoxLayout(self._tools)
-        row.setContentsMargins(0, 0, 0, 0)
-        row.setSpacing(GRID // 2)
-        for action in actions:
-            button = QToolButton()
-            button.setDefaultAction(action)
-            button.setIconSize(QSize(18, 18))
-            button.setFixedSize(_TOOL, _TOOL)
-            button.setFocusPolicy(Qt.FocusPolicy.NoFocus)
-            row.addWidget(button)
-        self._tools.setFixedSize(len(actions) * (_TOOL + GRID // 2), _TOOL)
+    def show_as_source(self, on: bool) -> None:
+        """Mark the view of the active shape among several."""
+        self.label.show_source(on)
 
     # -- what a person does -------------------------------------------------------------------------------------------
 
     def _clicked(self, vertex: int, modifiers: Qt.KeyboardModifier) -> None:
-        if vertex < 0:
+        if vertex < 0 or self.key is None:
             return
         if modifiers & Qt.KeyboardModifier.AltModifier:
-            self._session.pick_mirror(vertex)
+            self._session.pick_mirror(vertex, shape=self.key)
         else:
-            self._session.pick(vertex, add=bool(modifiers & Qt.KeyboardModifier.ShiftModifier))
+            self._session.pick(vertex, add=bool(modifiers & Qt.KeyboardModifier.ShiftModifier), shape=self.key)
 
     def _hover(self, vertex: int) -> None:
         if vertex < 0:
             self.hovered.emit(IDLE_TEXT)
             return
-        field = self._results.kernel
-        symbol = "h" if field is None or len(field.picks) == 1 else "Σ h"
-        value = f"   {symbol} = {field.values[vertex]:.4g} /⌀²" if field is not None else ""
-        self.hovered.emit(f"Vertex {vertex}{value}")
+        reading = "" if self.field is None else self.field.reading(vertex)
+        name = f"{self._shown.name}: " if self._shown is not None and len(self._session.state.shown) > 1 else ""
+        self.hovered.emit(f"{name}Vertex {vertex}   {reading}".rstrip())
 
     # -- layout and pictures ------------------------------------------------------------------------------------------
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         super().resizeEvent(event)
         width, height, gap = self.width(), self.height(), 2 * GRID
+        small = width < _SMALL.width() or height < _SMALL.height()
+        self.colour_bar.show_small(small, width - 2 * gap)
+        self.label.show_small(small)
+        self.canvas.leave_below(self.colour_bar.height() if small else 0)
+        self.label.setFixedWidth(max(40, min(400, width - 2 * gap)))
+        self.triad.setVisible(not small)
         self.label.move(gap, gap)
-        self._tools.move(width - self._tools.width() - gap, gap)
         self.triad.move(gap - 4, height - self.triad.height() - gap + 4)
-        self.colour_bar.move(width - self.colour_bar.width() - gap, height - self.colour_bar.height() - gap)
+        left = (width - self.colour_bar.width()) // 2 if small else width - self.colour_bar.width() - gap
+        self.colour_bar.move(left, height - self.colour_bar.height() - (GRID // 2 if small else gap))
         self.hint.move(width - self.hint.width() - gap, height - self.hint.height() - gap)
 
     def picture(self, scale: float, *, transparent: bool = False, labels: bool = True) -> QImage:

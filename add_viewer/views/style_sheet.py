@@ -42,6 +42,11 @@ QToolTip { background: $panel; color: $text; border: 1px solid $line; padding: 4
 QLabel[role="muted"] { color: $muted; }
 QLabel[role="heading"] { font-weight: 600; }
 QLabel[role="key"] { color: $text; background: $field; border: 1px solid $line; border-radius: 4px; padding: 1px 6px; }
+ShapeList::item { padding: 3px 4px; border-radius: 4px; color: $text; }
+ShapeList::item:hover { background: $field; }
+ShapeList::item:selected { background: $field; border: 1px solid $line; color: $text; }
+ShapeList::indicator { width: 11px; height: 11px; border: 1px solid $muted; border-radius: 3px; background: $field; }
+ShapeList::indicator:checked { background: $accent; border-color: $accent; }
 QScrollArea, QListView { border: none; background: transparent; }
 QScrollBar { background: transparent; border: none; margin: 0; }
 QScrollBar:vertical { width: 10px; }

@@ -99,7 +99,11 @@ class Person:
     def __init__(self, assembly: Any, qtbot: Any) -> None:
         self.assembly, self.qtbot = assembly, qtbot
         self.window, self.session, self.results = assembly.window, assembly.session, assembly.results
-        self.canvas = self.window.view.canvas
+
+    @property
+    def canvas(self) -> Any:
+        """Where the active shape is drawn."""
+        return self.window.view.canvas
 
     def open(self, reference: str = "humans/0") -> None:
         self.window.open_requested.emit(reference)

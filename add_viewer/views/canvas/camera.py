@@ -52,14 +52,18 @@ class OrbitCamera:
         right = np.cross(self._up, eye) / max(cos(above), 1e-9)
         return np.stack([right, np.cross(eye, right), eye])
 
-    def fit(self, points: FloatArray, aspect: float) -> None:
-        """Move so that all `points` (n, 3) lie in a picture of this width / height, with a margin."""
+    def fit(self, points: FloatArray, aspect: float, below: float = 0.0) -> None:
+        """Move so that all `points` (n, 3) lie in a picture of this width / height, with a margin.
+
+        below : share of the picture's height, at its lower edge, that stays free.
+        """
         seen = points @ self.axes.T
         low, high = seen.min(axis=0), seen.max(axis=0)
         self.focal = 0.5 * (low + high) @ self.axes
         width, height, depth = high - low
-        half = 0.5 * _MARGIN * max(height, width / aspect, 1e-9)
+        half = 0.5 * _MARGIN * max(height / (1.0 - below), width / aspect, 1e-9)
         self.distance = half / tan(radians(VIEW_ANGLE / 2)) + 0.5 * depth
+        self.pan(0.0, 0.5 * below)
 
     def rotate(self, dx: float, dy: float) -> None:
         """Turn by degrees; the elevation stops short of the poles."""
@@ -77,6 +81,10 @@ class OrbitCamera:
         self.distance = min(max(self.distance / factor, 1e-3), 1e3)
         right, up, _ = self.axes
         self.focal = self.focal + (before - self.picture_height) * (x * right + y * up)
+
+    def face(self, other: OrbitCamera) -> None:
+        """Turn to the angles of another camera."""
+        self.azimuth, self.elevation = other.azimuth, other.elevation
 
     @property
     def picture_height(self) -> float:

@@ -9,12 +9,13 @@ from PySide6.QtCore import QEvent, QPoint, QPointF, Qt, Signal
 from PySide6.QtGui import QImage, QMouseEvent, QResizeEvent, QWheelEvent
 from PySide6.QtWidgets import QApplication
 
+from ...models.fields import ShapeField
 from ...models.picks import Pick
 from ...models.results import DirectionField
 from ...models.shapes import OpenShape, Shape
 from ..theme import LIGHT, Theme
 from .camera import VIEW_ANGLE, OrbitCamera
-from .marks import Needles, marker_actors
+from .marks import Needles, best_actors, marker_actors
 from .picker import POINT_REACH, CloudPicker
 from .picture import take_picture
 from .surface import Surface
@@ -30,12 +31,14 @@ class Canvas(View3D):
 
     vertex_hovered : the vertex under the cursor or -1. vertex_clicked : vertex (-1 beside the shape) and modifier keys.
     menu_requested : global place and vertex or -1. camera_moved : the picture's axes turned.
+    steered : the person moved the camera, by this method of `OrbitCamera` with these arguments.
     """
 
     vertex_hovered = Signal(int)
     vertex_clicked = Signal(int, object)
     menu_requested = Signal(QPoint, int)
     camera_moved = Signal()
+    steered = Signal(str, tuple)
     painted = Signal()
 
     def __init__(self, parent: object = None) -> None:
@@ -44,10 +47,12 @@ class Canvas(View3D):
         self._body: Surface | None = None
         self._needles: Needles | None = None
         self._marks: list[pv.Actor] = []
+        self._best: list[pv.Actor] = []
         self._pressed: QPointF | None = None
         self._last = QPointF()
         self._dragging = False
         self._fitted = True
+        self._below = 0
         self._hovered = -1
         _add_lights(self)
         self.show_theme(LIGHT)
@@ -57,8 +62,8 @@ class Canvas(View3D):
     def show_shape(self, opened: OpenShape | None, up: str, front: str) -> None:
         """Replace the shape; the camera looks it in the face."""
         self.show_directions(None)
-        self._remove(self._marks)
-        self._marks = []
+        self._remove([*self._marks, *self._best])
+        self._marks, self._best = [], []
         if self._body is not None:
             self._remove([self._body.actor])
         self._body = None if opened is None else Surface(opened.shape)
@@ -69,11 +74,23 @@ class Canvas(View3D):
             self._step_aside(opened.shape)
         self.update()
 
-    def show_field(self, position: FloatArray | None) -> None:
-        """Colour the shape by `position` (n,) in [0, 1]; None is bare skin."""
-        if self._body is not None:
-            self._body.show_field(position)
-            self.draw_moving()
+    def show_field(self, field: ShapeField | None) -> None:
+        """Colour the shape by a field and mark its best vertices; None is bare skin."""
+        if self._body is None:
+            return
+        if field is not None and field.colors is not None:
+            self._body.show_colours(field.colors)
+        else:
+            self._body.show_field(None if field is None else field.position, "kernel" if field is None else field.tones)
+        self._show_best(() if field is None else field.best)
+        self.draw_moving()
+
+    def _show_best(self, best: tuple[int, ...]) -> None:
+        self._remove(self._best)
+        shape = self.shown
+        self._best = [] if shape is None else best_actors(best, shape.vertices, _normals(shape))
+        for actor in self._best:
+            self.renderer.AddActor(actor)
 
     def show_picks(self, picks: tuple[Pick, ...]) -> None:
         """Mark the picked points."""
@@ -105,6 +122,12 @@ class Canvas(View3D):
             self._body.show_wireframe(on)
             self.update()
 
+    def show_point_size(self, factor: float) -> None:
+        """Draw the discs of a cloud larger or smaller."""
+        if self._body is not None:
+            self._body.show_point_size(factor)
+            self.update()
+
     def show_theme(self, theme: Theme) -> None:
         """Soft background, a little lighter at the top."""
         self.set_background(theme.canvas_bottom, top=theme.canvas_top)
@@ -131,9 +154,29 @@ class Canvas(View3D):
     def fit(self) -> None:
         """Move so that the whole shape is in view, from the same side."""
         if self.shown is not None:
-            self.camera_model.fit(self.shown.vertices, self.width() / max(self.height(), 1))
+            height = max(self.height(), 1)
+            below = min(self._below / height, 0.5)
+            self.camera_model.fit(self.shown.vertices, self.width() / height, below)
         self._fitted = True
         self._place_camera()
+
+    def leave_below(self, pixels: int) -> None:
+        """Keep so much room free below the shape, for a label, where the view is fitted to it."""
+        if pixels != self._below:
+            self._below = pixels
+            if self._fitted:
+                self.fit()
+
+    def steer(self, move: str, arguments: tuple[float, ...]) -> None:
+        """Move the camera by a method of `OrbitCamera`: "rotate", "pan" or "zoom"."""
+        getattr(self.camera_model, move)(*arguments)
+        self._fitted = False
+        self._place_camera()
+
+    def face(self, other: Canvas) -> None:
+        """Look from the same side as another view."""
+        self.camera_model.face(other.camera_model)
+        self.fit()
 
     def _place_camera(self) -> None:
         model, camera = self.camera_model, self.renderer.GetActiveCamera()
@@ -216,9 +259,7 @@ class Canvas(View3D):
     def wheelEvent(self, event: QWheelEvent) -> None:
         notches = event.angleDelta().y() / 120.0
         x, y = self._from_centre(event.position())
-        self.camera_model.zoom(1.15**notches, x, y)
-        self._fitted = False
-        self._place_camera()
+        self._steer_by_hand("zoom", 1.15**notches, x, y)
 
     def leaveEvent(self, event: QEvent) -> None:
         self._hover(-1)
@@ -229,13 +270,15 @@ class Canvas(View3D):
         height = max(self.height(), 1)
         pans = event.buttons() & Qt.MouseButton.MiddleButton or event.modifiers() & Qt.KeyboardModifier.ShiftModifier
         if event.buttons() & Qt.MouseButton.RightButton:
-            self.camera_model.zoom(4.0 ** (-step.y() / height))
+            self._steer_by_hand("zoom", 4.0 ** (-step.y() / height))
         elif pans:
-            self.camera_model.pan(step.x() / height, -step.y() / height)
+            self._steer_by_hand("pan", step.x() / height, -step.y() / height)
         else:
-            self.camera_model.rotate(220.0 * step.x() / height, 220.0 * step.y() / height)
-        self._fitted = False
-        self._place_camera()
+            self._steer_by_hand("rotate", 220.0 * step.x() / height, 220.0 * step.y() / height)
+
+    def _steer_by_hand(self, move: str, *arguments: float) -> None:
+        self.steer(move, arguments)
+        self.steered.emit(move, arguments)
 
     def _from_centre(self, place: QPointF) -> tuple[float, float]:
         height = max(self.height(), 1)

@@ -13,7 +13,7 @@ from ...models.results import DirectionField
 
 FloatArray = NDArray[np.float64]
 
-_WHITE = (1.0, 1.0, 1.0)
+_WHITE, _INK = (1.0, 1.0, 1.0), (0.12, 0.13, 0.15)
 _BALL = 0.0095
 _NEEDLE_WIDTH, _NEEDLE_LENGTH, _NEEDLE_LIFT = 0.19, 0.90, 0.0026
 
@@ -30,6 +30,18 @@ def marker_actors(picks: tuple[Pick, ...], vertices: FloatArray, normals: FloatA
         else:
             actors.append(_ring(place + 0.45 * _BALL * normal, normal, 1.0 * _BALL, 0.0028, _WHITE))
             actors.append(_ball(place + 0.55 * _BALL * normal, _BALL, colour))
+    return actors
+
+
+def best_actors(best: tuple[int, ...], vertices: FloatArray, normals: FloatArray | None) -> list[pv.Actor]:
+    """Small white balls with a dark rim at the best matches, the first one larger."""
+    actors = []
+    for rank, vertex in enumerate(best):
+        size = (0.80 if rank == 0 else 0.50) * _BALL
+        normal = np.array([0.0, 0.0, 1.0]) if normals is None else normals[vertex]
+        place = vertices[vertex] + 0.4 * size * normal
+        actors.append(_ring(place, normal, size, 0.28 * size, _INK))
+        actors.append(_ball(place, 0.95 * size, _WHITE))
     return actors
 
 

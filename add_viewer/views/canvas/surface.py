@@ -8,14 +8,14 @@ from numpy.typing import NDArray
 from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkCommonCore import vtkLookupTable
 
-from add_core.drawing.colours import kernel_map
+from add_core.drawing.colour_maps import Tones, tone_map
 from add_core.geometry import TriangleMesh
 
 from ...models.shapes import Shape
 from .picker import CloudPicker, MeshPicker
 
 FloatArray = NDArray[np.float64]
-_FIELD = "field"
+_FIELD, _COLOURS = "field", "colours"
 
 
 class Surface:
@@ -24,18 +24,40 @@ class Surface:
     def __init__(self, shape: Shape) -> None:
         self.shape = shape
         self.dataset = _dataset(shape)
-        self._field = np.zeros(shape.vertex_count, dtype=np.float32)
-        self.dataset.point_data[_FIELD] = self._field
+        self._tones: Tones = "kernel"
+        self.dataset.point_data[_FIELD] = np.zeros(shape.vertex_count, dtype=np.float32)
         self.dataset.point_data.active_scalars_name = _FIELD
         self.picker = MeshPicker(self.dataset) if isinstance(shape, TriangleMesh) else CloudPicker(self.dataset)
         self.actor = self._make_actor()
 
-    def show_field(self, position: FloatArray | None) -> None:
-        """Colour by `position` (n,) in [0, 1] on the kernel map; None is bare skin."""
-        array = self.dataset.point_data[_FIELD]
-        array[:] = 0.0 if position is None else position
-        self.dataset.GetPointData().GetArray(_FIELD).Modified()
+    def show_field(self, position: FloatArray | None, tones: Tones = "kernel") -> None:
+        """Colour by `position` (n,) in [0, 1] on the map of `tones`; None is bare skin."""
+        if position is None:
+            tones = "kernel"
+        if tones != self._tones:
+            self._tones = tones
+            self.actor.mapper.SetLookupTable(_lookup_table(tones))
+        self.actor.mapper.SelectColorArray(_FIELD)
+        self.actor.mapper.SetColorModeToMapScalars()
+        self._write(_FIELD, 0.0 if position is None else position)
+
+    def show_colours(self, colours: FloatArray) -> None:
+        """Colour by `colours` (n, 3), sRGB in [0, 1]."""
+        if _COLOURS not in self.dataset.point_data:
+            self.dataset.point_data.set_array(np.zeros((self.shape.vertex_count, 3), dtype=np.uint8), _COLOURS)
+        self.actor.mapper.SelectColorArray(_COLOURS)
+        self.actor.mapper.SetColorModeToDirectScalars()
+        self._write(_COLOURS, np.round(255.0 * np.clip(colours, 0.0, 1.0)).astype(np.uint8))
+
+    def _write(self, name: str, values: object) -> None:
+        self.dataset.point_data[name][:] = values
+        self.dataset.GetPointData().GetArray(name).Modified()
         self.dataset.Modified()
+
+    def show_point_size(self, factor: float) -> None:
+        """Draw the discs of a cloud `factor` times their usual size."""
+        if not isinstance(self.shape, TriangleMesh):
+            self.actor.prop.point_size = factor * _point_size(self.shape)
 
     def show_wireframe(self, on: bool) -> None:
         """Draw the triangles' edges over the surface."""
@@ -45,7 +67,9 @@ class Surface:
 
     def _make_actor(self) -> pv.Actor:
         mapper = pv.DataSetMapper(self.dataset)
-        mapper.SetLookupTable(_lookup_table())
+        mapper.SetLookupTable(_lookup_table(self._tones))
+        mapper.SetScalarModeToUsePointFieldData()
+        mapper.SelectColorArray(_FIELD)
         mapper.SetScalarRange(0.0, 1.0)
         mapper.SetScalarVisibility(True)
         mapper.SetUseLookupTableScalarRange(True)
@@ -79,8 +103,8 @@ def _vtk_array(name: str, values: FloatArray):  # type: ignore[no-untyped-def]
     return array
 
 
-def _lookup_table() -> vtkLookupTable:
-    colours = kernel_map(256)
+def _lookup_table(tones: Tones) -> vtkLookupTable:
+    colours = tone_map(tones)
     table = vtkLookupTable()
     table.SetNumberOfTableValues(len(colours))
     table.SetTableRange(0.0, 1.0)

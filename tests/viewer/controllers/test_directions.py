@@ -33,5 +33,5 @@ def test_nothing_is_computed_until_somebody_wants_to_see_it(run, torus):
     assert run.waiting == []
     display.set("arrows", True)
     run.answer_all()
-    assert results.directions.shape == "torus"
+    assert results.directions["torus"].shape == "torus"
     assert controller is not None

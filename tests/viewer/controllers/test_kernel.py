@@ -7,6 +7,7 @@ from add_core.operators import AnisotropicLaplacian
 from add_core.spectra import HeatFlow
 from add_viewer.controllers.kernel import KernelController
 from add_viewer.controllers.operators import OperatorStore
+from add_viewer.models.display import Display
 from add_viewer.models.results import Results
 from add_viewer.models.session import Session
 
@@ -14,7 +15,7 @@ from add_viewer.models.session import Session
 @pytest.fixture
 def parts(run, torus):
     session, results = Session(), Results()
-    controller = KernelController(session, results, run, OperatorStore())
+    controller = KernelController(session, results, Display(), run, OperatorStore())
     session.add_shape(torus)
     run.answer_all()
     return session, results, controller

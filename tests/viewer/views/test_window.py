@@ -28,7 +28,7 @@ def test_the_start_page_opens_a_shape_with_one_click(person, qtbot):
     place = start.list.visualItemRect(item).center()
     qtbot.mouseClick(start.list.viewport(), Qt.MouseButton.LeftButton, pos=place)
     qtbot.waitUntil(lambda: person.session.state.active_key == "dogs/3", timeout=20000)
-    assert person.window.pages.currentWidget() is person.window.view
+    assert person.window.pages.currentWidget() is person.window.scene
     assert person.window.settings.recent == ["dogs/3"]
 
 
@@ -282,7 +282,7 @@ def test_the_crosshairs_are_linked_to_theta_and_t(person, qtbot):
 def test_the_direction_field_is_drawn_above_the_skin_and_turns(person, qtbot):
     person.open()
     qtbot.keyClick(person.window, Qt.Key.Key_D)
-    qtbot.waitUntil(lambda: person.results.directions is not None, timeout=20000)
+    qtbot.waitUntil(lambda: bool(person.results.directions), timeout=20000)
     qtbot.waitUntil(lambda: person.canvas._needles is not None, timeout=5000)
     before = person.pixels()
     person.session.diffuse(theta=radians(90))
@@ -310,10 +310,10 @@ def test_views_look_at_the_shape_s_own_sides(person, qtbot):
 def test_the_right_click_menu_offers_what_makes_sense(person):
     person.open()
     person.click(THIGH)
-    there = [action.text() for action in person.window.context_menu(THIGH).actions()]
+    there = [action.text() for action in person.window.context_menu("humans/0", THIGH).actions()]
     assert "Remove this point" in there
     assert "Add its mirror point" in there
-    beside = [action.text() for action in person.window.context_menu(-1).actions()]
+    beside = [action.text() for action in person.window.context_menu("humans/0", -1).actions()]
     assert not any("point" in text for text in beside)
 
 
@@ -325,7 +325,7 @@ def test_panels_hide_on_the_start_page_and_come_back_as_they_were(person):
     person.window.show_start()
     assert person.window.parameter_dock.isHidden()
     person.window.start.back_button.click()
-    assert person.window.pages.currentWidget() is person.window.view
+    assert person.window.pages.currentWidget() is person.window.scene
     assert person.window.parameter_dock.isVisible()
     person.window.show_start()
     person.open("humans/1")

@@ -4,8 +4,8 @@ from math import radians
 
 import pytest
 
+from add_viewer.models.captions import describe
 from add_viewer.models.diffusion import Diffusion
-from add_viewer.views.captions import describe
 
 
 @pytest.mark.parametrize(

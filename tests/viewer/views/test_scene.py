@@ -1,0 +1,136 @@
+"""Several shapes side by side, driven like a person drives them."""
+
+import numpy as np
+import pytest
+from PySide6.QtCore import QPoint, Qt
+
+from add_viewer.models.fields import FieldChoice
+
+THIGH = 6868
+
+
+@pytest.fixture
+def people(person):
+    person.open("humans/0")
+    person.open("humans/1")
+    return person
+
+
+def view(person, key, panel=0):
+    return next(each for each in person.window.scene.views if (each.key, each.panel) == (key, panel))
+
+
+def click(person, qtbot, key, vertex, modifier=Qt.KeyboardModifier.NoModifier):
+    canvas = view(person, key).canvas
+    qtbot.mouseClick(canvas, Qt.MouseButton.LeftButton, modifier, canvas.place_of(vertex).toPoint())
+
+
+def test_a_second_shape_stands_beside_the_first_and_a_click_on_either_makes_it_the_source(people, qtbot):
+    assert [each.key for each in people.window.scene.views] == ["humans/0", "humans/1"]
+    click(people, qtbot, "humans/0", THIGH)
+    assert people.session.state.active_key == "humans/0"
+    assert people.window.view is view(people, "humans/0")
+    click(people, qtbot, "humans/1", THIGH)
+    assert people.session.state.active_key == "humans/1"
+    assert [pick.shape for pick in people.session.state.picks] == ["humans/1"]
+
+
+def test_a_pick_is_carried_to_the_other_shape_and_both_take_colour(people, qtbot):
+    before = [np.array(_pixels(each)) for each in people.window.scene.views]
+    click(people, qtbot, "humans/0", THIGH)
+    assert [pick.vertex for pick in people.results.carried["humans/1"]] == [THIGH]
+    qtbot.waitUntil(lambda: {key for _, key in people.results.fields} == {"humans/0", "humans/1"}, timeout=20000)
+    for each, bare in zip(people.window.scene.views, before, strict=True):
+        assert (np.abs(_pixels(each) - bare).max(axis=2) > 60).mean() > 0.005
+
+
+def test_linked_cameras_turn_together_and_free_ones_do_not(people, qtbot):
+    one, two = (view(people, key).canvas for key in ("humans/0", "humans/1"))
+
+    def drag():
+        start = QPoint(20, one.height() // 2)
+        qtbot.mousePress(one, Qt.MouseButton.LeftButton, pos=start)
+        for step in range(1, 6):
+            qtbot.mouseMove(one, start + QPoint(8 * step, 0))
+        qtbot.mouseRelease(one, Qt.MouseButton.LeftButton, pos=start + QPoint(40, 0))
+
+    drag()
+    assert one.camera_model.azimuth == two.camera_model.azimuth != 0.0
+    qtbot.keyClick(people.window, Qt.Key.Key_L)
+    assert not people.session.state.arrangement.linked
+    turned = two.camera_model.azimuth
+    drag()
+    assert two.camera_model.azimuth == turned != one.camera_model.azimuth
+    qtbot.keyClick(people.window, Qt.Key.Key_L)  # linked again: all look as the source does
+    assert one.camera_model.azimuth == two.camera_model.azimuth == turned
+
+
+def test_hidden_and_closed_shapes_have_no_view_and_undo_brings_them_back(people, qtbot):
+    shapes = people.window.parameters.shapes
+    shapes.item(0).setCheckState(Qt.CheckState.Unchecked)
+    assert [each.key for each in people.window.scene.views] == ["humans/1"]
+    people.session.undo()
+    assert [each.key for each in people.window.scene.views] == ["humans/0", "humans/1"]
+    qtbot.keyClick(people.window, Qt.Key.Key_W, Qt.KeyboardModifier.ControlModifier)
+    assert [each.key for each in people.window.scene.views] == ["humans/0"]
+    people.session.undo()
+    assert [each.key for each in people.window.scene.views] == ["humans/0", "humans/1"]
+    assert shapes.item(0).checkState() == Qt.CheckState.Checked
+
+
+def test_a_line_of_the_list_makes_its_shape_the_source(people, qtbot):
+    shapes = people.window.parameters.shapes
+    place = shapes.visualItemRect(shapes.item(0)).center()
+    qtbot.mouseClick(shapes.viewport(), Qt.MouseButton.LeftButton, pos=place)
+    assert people.session.state.active_key == "humans/0"
+    assert people.window.view.key == "humans/0"
+
+
+def test_a_line_dragged_elsewhere_moves_its_view(people):
+    shapes = people.window.parameters.shapes
+    shapes.model().moveRow(shapes.rootIndex(), 1, shapes.rootIndex(), 0)
+    assert [shape.key for shape in people.session.state.shapes] == ["humans/1", "humans/0"]
+    assert [each.key for each in people.window.scene.views] == ["humans/1", "humans/0"]
+    people.session.undo()
+    assert [shapes.item(row).text() for row in range(2)] == [shape.name for shape in people.session.state.shapes]
+
+
+def test_a_split_view_shows_two_fields_of_each_shape(people, qtbot):
+    click(people, qtbot, "humans/0", THIGH)
+    people.session.choose_comparison(FieldChoice("heat"))
+    assert [(each.panel, each.key) for each in people.window.scene.views] == [
+        (panel, key) for panel in (0, 1) for key in ("humans/0", "humans/1")
+    ]
+    qtbot.waitUntil(lambda: len(people.results.fields) == 4, timeout=20000)
+    people.session.choose_comparison(None)
+    assert len(people.window.scene.views) == 2
+    assert {panel for panel, _ in people.results.fields} == {0}
+
+
+def test_one_range_of_colours_makes_colour_bars_agree(people, qtbot):
+    click(people, qtbot, "humans/0", THIGH)
+    qtbot.waitUntil(lambda: len(people.results.fields) == 2, timeout=20000)
+    tops = [each.field.scale.high for each in people.window.scene.views]
+    assert tops[0] != tops[1]
+    qtbot.keyClick(people.window, Qt.Key.Key_R)
+    assert [each.field.scale.high for each in people.window.scene.views] == [max(tops)] * 2
+
+
+def test_the_source_alone_can_be_shown(people):
+    people.window.menus.actions["layout:single"].trigger()
+    assert [each.key for each in people.window.scene.views] == ["humans/1"]
+    people.window.menus.actions["layout:strip"].trigger()
+    assert len(people.window.scene.views) == 2
+
+
+def test_a_picture_of_several_views_is_one_picture(people, tmp_path):
+    image = people.window.scene.picture(2)
+    assert (image.width(), image.height()) == (2 * people.window.scene.width(), 2 * people.window.scene.height())
+
+
+def _pixels(each):
+    from PySide6.QtGui import QImage
+
+    image = each.canvas.grabFramebuffer().convertToFormat(QImage.Format.Format_RGB888)
+    flat = np.frombuffer(image.constBits(), dtype=np.uint8).reshape(image.height(), image.bytesPerLine())
+    return flat[:, : 3 * image.width()].reshape(image.height(), image.width(), 3).astype(int)
