@@ -14,7 +14,7 @@ import click
 from .. import __version__
 from ..errors import AddError, Cancelled
 
-COMMANDS = ("info", "kernel", "spectra", "describe", "match", "symmetry", "evaluate", "train", "cache")
+COMMANDS = ("info", "kernel", "spectra", "describe", "match", "symmetry", "evaluate", "train", "figures", "cache")
 """Each is a module of this package with a click command named `command`."""
 
 SUCCESS, FAILURE, MISTAKE, INTERRUPTED = 0, 1, 2, 130

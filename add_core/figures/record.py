@@ -1,0 +1,67 @@
+"""What has been drawn into a folder already, so that the same command goes on where it was stopped."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any
+
+from .. import __version__
+from ..io.atomic import write_atomically
+
+FILE = "figures.json"
+
+
+@dataclass(frozen=True)
+class Entry:
+    """A finished figure. files : names in the folder, the picture first. quality, image : how it was asked for.
+    version : of the program that drew it.
+    """
+
+    number: int
+    files: tuple[str, ...]
+    caption: str
+    missing: tuple[str, ...]
+    quality: str
+    image: str
+    seconds: float
+    version: str = __version__
+
+    @property
+    def is_complete(self) -> bool:
+        """Whether nothing had to be left out."""
+        return not self.missing
+
+
+class Record:
+    """The entries of a folder, kept in a file beside the figures."""
+
+    def __init__(self, folder: Path) -> None:
+        self._folder = folder
+        self._entries: dict[int, Entry] = {entry.number: entry for entry in _read(folder / FILE)}
+
+    def __iter__(self):  # type: ignore[no-untyped-def]
+        return iter(sorted(self._entries.values(), key=lambda entry: entry.number))
+
+    def finished(self, number: int, *, quality: str, image: str) -> Entry | None:
+        """The entry of a figure that was drawn in this way by this version and whose files are there; or None."""
+        found = self._entries.get(number)
+        if found is None or (found.quality, found.image, found.version) != (quality, image, __version__):
+            return None
+        return found if all((self._folder / name).is_file() for name in found.files) else None
+
+    def add(self, entry: Entry) -> None:
+        """Remember an entry, now and for the next run."""
+        self._entries[entry.number] = entry
+        listed = [asdict(self._entries[number]) for number in sorted(self._entries)]
+        write_atomically(self._folder / FILE, (json.dumps(listed, indent=1, ensure_ascii=False) + "\n").encode())
+
+
+def _read(path: Path) -> list[Entry]:
+    """Entries of a file; none if it is missing or is not one of ours: then figures are simply drawn again."""
+    try:
+        listed: list[dict[str, Any]] = json.loads(path.read_text(encoding="utf-8"))
+        return [Entry(**{**item, "files": tuple(item["files"]), "missing": tuple(item["missing"])}) for item in listed]
+    except (OSError, ValueError, TypeError, KeyError):
+        return []

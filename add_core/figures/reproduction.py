@@ -1,0 +1,121 @@
+"""From a list of numbers to files: each figure drawn, saved whole, and remembered before the next begins."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Callable, Sequence
+from contextlib import AbstractContextManager, nullcontext
+from dataclasses import dataclass
+from pathlib import Path
+from time import perf_counter
+from typing import Any
+
+from ..errors import ParameterError
+from ..io.atomic import write_atomically
+from .cast import Cast, people
+from .gallery import FIGURES, PaperFigure, by_number
+from .index_page import FILE as PAGE
+from .index_page import index_page
+from .page import TYPE
+from .quality import QUALITIES, Quality
+from .record import Entry, Record
+from .studio import Step, Studio
+
+FORMATS = ("png", "pdf", "svg")
+
+Watch = Callable[[PaperFigure], AbstractContextManager[Step]]
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """A figure and what became of it. kept : it was there already and has not been drawn again."""
+
+    entry: Entry
+    kept: bool
+
+
+def chosen_figures(numbers: Sequence[int] | None) -> list[PaperFigure]:
+    """The figures of these numbers in the paper's order, all for None. Raises ParameterError for an unknown one."""
+    if numbers is None:
+        return list(FIGURES)
+    for number in numbers:
+        if by_number(number) is None:
+            first, last = FIGURES[0].number, FIGURES[-1].number
+            raise ParameterError(f"only must name figures from {first} to {last}, but it names {number}.")
+    return [figure for figure in FIGURES if figure.number in numbers]
+
+
+def reproduce(
+    folder: str | Path,
+    *,
+    only: Sequence[int] | None = None,
+    quality: str | Quality = "full",
+    image: str = "png",
+    again: bool = False,
+    cast: Cast | None = None,
+    command: str = "",
+    watch: Watch | None = None,
+    finished: Callable[[Outcome], object] | None = None,
+) -> list[Outcome]:
+    """Draw figures of the paper into `folder`, with index.html around them.
+
+    only : numbers of figures. quality : a name of QUALITIES or a Quality. image : one of FORMATS. again : draw what is
+    there already too. cast : who appears; the shipped people. command : what to tell the reader to run.
+    watch : gives for each figure that is drawn a context, whose value is called as step(done, total) along the way;
+    whatever that raises ends the work, and the next call goes on with the figure at hand. finished : called after each.
+
+    Raises ParameterError for an unknown figure, quality or format, ShapeFileError if the folder cannot be written.
+    """
+    figures, place = chosen_figures(only), Path(folder)
+    level = _quality(quality)
+    if image not in FORMATS:
+        raise ParameterError(f"format must be one of {', '.join(FORMATS)}, but it is {image!r}.")
+    try:
+        place.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise ParameterError(f"{place} cannot be made a folder: {error.strerror or error}.") from None
+    record, outcomes = Record(place), []
+    studio = Studio(cast or people(), level)
+    for figure in figures:
+        entry = None if again else record.finished(figure.number, quality=level.name, image=image)
+        outcome = Outcome(entry or _watched(figure, studio, place, image, watch), kept=entry is not None)
+        record.add(outcome.entry)
+        write_atomically(place / PAGE, index_page(list(record), command=command).encode())
+        outcomes.append(outcome)
+        if finished is not None:
+            finished(outcome)
+    return outcomes
+
+
+def _watched(figure: PaperFigure, studio: Studio, folder: Path, image: str, watch: Watch | None) -> Entry:
+    with nullcontext(_ignore) if watch is None else watch(figure) as studio.step:
+        return _made(figure, studio, folder, image)
+
+
+def _ignore(done: int, total: int) -> None:
+    """Nobody asked how far it is."""
+
+
+def _quality(quality: str | Quality) -> Quality:
+    if isinstance(quality, Quality):
+        return quality
+    if quality not in QUALITIES:
+        raise ParameterError(f"quality must be one of {', '.join(QUALITIES)}, but it is {quality!r}.")
+    return QUALITIES[quality]
+
+
+def _made(figure: PaperFigure, studio: Studio, folder: Path, image: str) -> Entry:
+    import matplotlib
+
+    start = perf_counter()
+    with matplotlib.rc_context(TYPE):
+        drawn = figure.draw(studio)
+        stamp: dict[str, Any] = {} if image == "png" else {"Date" if image == "svg" else "CreationDate": None}
+        buffer = io.BytesIO()
+        drawn.figure.savefig(buffer, format=image, dpi=studio.quality.dots, metadata=stamp)
+    files = {f"{figure.stem}.{image}": buffer.getvalue()}
+    files |= {f"{figure.stem}.{ending}": text.encode() for ending, text in drawn.tables.items()}
+    for name, data in files.items():
+        write_atomically(folder / name, data)
+    seconds = round(perf_counter() - start, 1)
+    return Entry(figure.number, tuple(files), drawn.caption, drawn.missing, studio.quality.name, image, seconds)
