@@ -18,16 +18,21 @@ from .controllers.carrying import CarryingController
 from .controllers.curves import CurvesController
 from .controllers.directions import DirectionsController
 from .controllers.exporting import curves_table, write_atomically
+from .controllers.job_folders import default_home
+from .controllers.jobs import JobsController
 from .controllers.kernel import KernelController
 from .controllers.opening import OpeningController, Read
 from .controllers.operators import OperatorStore
 from .controllers.running import explain
 from .models.display import Display
+from .models.jobs import Jobs
 from .models.results import Results
 from .models.session import Session
 from .models.shapes import OpenShape
 from .tasks.delay import Delay
+from .tasks.processes import ProcessRunner
 from .tasks.worker import Worker
+from .views.background import BackgroundViews
 from .views.main_window import MainWindow
 from .views.saving import Saving, save_image
 from .views.settings import Settings
@@ -72,6 +77,7 @@ class Assembly:
             store = QSettings(os.devnull, QSettings.Format.IniFormat)
         self.window = MainWindow(self.session, self.results, self.display, Settings(store), _galleries())
         self._control(read)
+        self._run_jobs(restore=screenshot is None)
         if theme is not None:
             self.display.set("theme", theme)
         if size is not None:
@@ -87,6 +93,14 @@ class Assembly:
         self.curves = CurvesController(self.session, self.results, run, self._curve_delay, operators)
         self.window.open_requested.connect(self.opening.open)
         self.saving = Saving(self.window, write_atomically, curves_table, explain)
+
+    def _run_jobs(self, *, restore: bool) -> None:
+        self.jobs = Jobs(default_home())
+        self.job_control = JobsController(self.jobs, ProcessRunner(), self.results.report)
+        self.background = BackgroundViews(self.window, self.jobs, self.job_control.log)
+        if restore:
+            self.job_control.restore()
+            self.background.offer_to_go_on()
 
     def _opened(self, shape: OpenShape) -> None:
         self.window.remember(shape.reference)
@@ -120,6 +134,7 @@ class Assembly:
         self._curve_delay.cancel()
         self.worker.stop()
         self.window.close()
+        self.job_control.stop()
 
     def _take_screenshot(self) -> None:
         if self._failures:

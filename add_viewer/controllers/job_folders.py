@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import logging
+import os
 import shutil
 from dataclasses import dataclass
 from pathlib import Path
@@ -22,8 +23,10 @@ _log = logging.getLogger(__name__)
 
 
 def default_home() -> Path:
-    """Where this platform keeps a person's data."""
-    return platformdirs.user_data_path("anisotropic-diffusion-descriptors", False) / "jobs"
+    """Where jobs live: in $ADD_DATA_DIR, or where the platform keeps a person's data."""
+    chosen = os.environ.get("ADD_DATA_DIR")
+    root = Path(chosen) if chosen else platformdirs.user_data_path("anisotropic-diffusion-descriptors", False)
+    return root.absolute() / "jobs"
 
 
 @dataclass(frozen=True)

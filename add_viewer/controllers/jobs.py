@@ -122,7 +122,7 @@ class JobsController:
     # -- what is asked for --------------------------------------------------------------------------------------------
 
     def _enqueue(self, id: str) -> None:
-        waiting = replace(self._jobs[id], state="waiting", message="Waiting for its turn", result={}, hidden=False)
+        waiting = replace(self._jobs[id], state="waiting", message="", result={}, hidden=False)
         self._put(replace(waiting, done=0, total=0))
         self._start_next()
 

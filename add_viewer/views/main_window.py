@@ -67,6 +67,7 @@ class MainWindow(QMainWindow):
         self.curves = CurvePanel(session, results, display)
         self.panels = Panels(self, self.menus.docks)
         self.aids = Aids(self)
+        self._added: list[Any] = []
         self._build()
         self._connect()
         self._show_theme()
@@ -200,9 +201,14 @@ class MainWindow(QMainWindow):
         apply_theme(theme)
         self.setWindowIcon(icon("mdi6.blur-radial", theme.accent))
         parts: list[Any] = [self.menus, self.scene, self.start, self.message, self.parameters, self.curves, self.panels]
-        parts += [self.aids]
+        parts += [self.aids, *self._added]
         for part in parts:
             part.show_theme(theme)
+
+    def add_part(self, part: Any) -> None:
+        """Let `part`, which was put into the window later, follow the theme."""
+        self._added.append(part)
+        part.show_theme(theme_of(self.display["theme"]))
 
     def _show_recent(self) -> None:
         references = self.settings.recent

@@ -58,6 +58,7 @@ LOOKS = (
     Entry("right", "Its &right side", "6"),
     Entry("top", "&Top", "7"),
 )
+TOOLS = (Entry("jobs", "&Jobs", "Ctrl+J", "mdi6.format-list-checks", "What runs in the background"),)
 HELP = (
     Entry("palette", "&Command palette…", "Ctrl+Shift+P", "mdi6.text-search", "Do anything by typing its name"),
     Entry("shortcuts", "&Mouse and keyboard", "F1; ?", "mdi6.keyboard-outline", "What mouse and keys do, on one sheet"),
@@ -92,6 +93,7 @@ class Menus:
         self.file = self._menu(bar.addMenu("&File"), FILE)
         self.edit = self._menu(bar.addMenu("&Edit"), EDIT)
         self.view = self._view_menu(bar.addMenu("&View"))
+        self.tools = self._menu(bar.addMenu("&Tools"), TOOLS)
         self.help = self._menu(bar.addMenu("&Help"), HELP)
         display.changed.connect(self._show_display)
 

@@ -10,7 +10,7 @@ from .theme import Theme
 
 
 class Panels:
-    """Docks of a window. They belong to a shape: where none is shown they hide together."""
+    """Docks of a window. Those that belong to a shape hide together where none is shown."""
 
     def __init__(self, window: QMainWindow, menu: QMenu) -> None:
         self._window, self._menu = window, menu
@@ -20,14 +20,27 @@ class Panels:
 
     def add(self, title: str, widget: QWidget, area: Qt.DockWidgetArea) -> QDockWidget:
         """A new panel on one side of the window."""
+        dock = self._made(title, widget)
+        self._window.addDockWidget(area, dock)
+        self._docks.append(dock)
+        return dock
+
+    def add_beside(self, other: QDockWidget, title: str, widget: QWidget) -> QDockWidget:
+        """A new panel that shares a place with another, closed until it is wanted; it needs no shape."""
+        dock = self._made(title, widget)
+        if not self._window.restoreDockWidget(dock):
+            self._window.addDockWidget(self._window.dockWidgetArea(other), dock)
+            self._window.tabifyDockWidget(other, dock)
+            dock.hide()
+        return dock
+
+    def _made(self, title: str, widget: QWidget) -> QDockWidget:
         dock = QDockWidget(title, self._window)
         dock.setObjectName(title)
         dock.setWidget(widget)
         title_bar = DockTitle(dock)
         dock.setTitleBarWidget(title_bar)
-        self._window.addDockWidget(area, dock)
         self._menu.addAction(dock.toggleViewAction())
-        self._docks.append(dock)
         self._titles.append(title_bar)
         return dock
 

@@ -7,6 +7,11 @@ from string import Template
 STYLE_SHEET = Template("""
 QMainWindow::separator { background: $line; width: 1px; height: 1px; }
 DockTitle { border-bottom: 1px solid $line; }
+QTabBar { background: $window; }
+QTabBar::tab { background: transparent; border: none; border-top: 2px solid transparent; padding: 5px 12px;
+    color: $muted; }
+QTabBar::tab:selected { color: $text; border-top-color: $accent; }
+QTabBar::tab:hover { color: $text; }
 QMenuBar { background: $window; padding: 2px 4px; border-bottom: 1px solid $line; }
 QMenuBar::item { padding: 4px 8px; border-radius: 4px; background: transparent; }
 QMenuBar::item:selected, QMenu::item:selected { background: $accent; color: $on_accent; }

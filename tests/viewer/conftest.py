@@ -64,6 +64,14 @@ def torus() -> OpenShape:
     return torus_shape()
 
 
+@pytest.fixture(autouse=True)
+def data_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """Where the app keeps a person's data: in a test, nowhere else than in its own folder."""
+    folder = tmp_path / "data"
+    monkeypatch.setenv("ADD_DATA_DIR", str(folder))
+    return folder
+
+
 @pytest.fixture
 def screen() -> Iterator[None]:
     """The screen for one test at a time: windows of two processes would take the keyboard from each other."""
