@@ -18,6 +18,20 @@ from .reporting import result
 from .stopping import Report, stoppable
 
 _NETWORKS = ("ADD1", "ADD2", "ADD3", "mADD1", "mADD2", "mADD3", "mADD4")
+_SETTINGS = (
+    "optimizer",
+    "learning_rate",
+    "steps",
+    "pairs",
+    "noise",
+    "validate_every",
+    "checkpoint_every",
+    "patience",
+    "arithmetic",
+    "device",
+    "seed",
+)
+"""Options that go to `TrainingSettings` as they are."""
 _FOLDER = click.Path(path_type=Path, file_okay=False)
 
 
@@ -34,10 +48,14 @@ _FOLDER = click.Path(path_type=Path, file_okay=False)
 @click.option("--optimizer", type=click.Choice(("adam", "adadelta")), default="adam", show_default=True)
 @click.option("--learning-rate", type=float, default=None, help="[default: 0.001 for adam, 1 for adadelta]")
 @click.option("--steps", type=int, default=3000, show_default=True, help="Mini-batches in all.")
+@click.option("--minutes", type=float, help="Instead of --steps: as many as this machine takes in that time.")
+@click.option("--shapes", type=click.IntRange(min=2), help="At most so many to train on. [default: all]")
 @click.option("--pairs", type=int, default=192, show_default=True, help="Pairs of points in a mini-batch.")
 @click.option("--noise", type=float, default=0.1, show_default=True, help="Added to the standardised inputs.")
 @click.option("--variations", type=int, default=0, show_default=True, help="Varied copies of each training shape.")
 @click.option("--patience", type=int, default=0, help="Stop after so many validations without improvement; 0: never.")
+@click.option("--validate-every", type=int, default=250, show_default=True, help="Steps between two validations.")
+@click.option("--checkpoint-every", type=int, default=100, show_default=True, help="Steps between two checkpoints.")
 @click.option("--arithmetic", type=click.Choice(("float32", "bfloat16")), default="float32", show_default=True)
 @click.option("--device", default="cpu", show_default=True, help="Of torch, such as cuda.")
 @click.option("--seed", type=int, default=0, show_default=True)
@@ -62,14 +80,23 @@ def command(architecture: str, data: str, run: Path, as_json: bool, **chosen: An
         conductivity=conductivity,
         isotropic=chosen["isotropic"],
     )
-    named = ("optimizer", "learning_rate", "steps", "pairs", "noise", "patience", "arithmetic", "device", "seed")
     settings = TrainingSettings(
         loss=chosen["loss"] or ("multinomial" if architecture == "mADD4" else "soft-nearest"),
-        **{name: chosen[name] for name in named},
+        **{name: chosen[name] for name in _SETTINGS},
     )
-    task = LearningTask.of(_collection(data), variations=chosen["variations"], seed=settings.seed)
+    task = LearningTask.of(
+        _collection(data), most=chosen["shapes"], variations=chosen["variations"], seed=settings.seed
+    )
     with _json_lines() if as_json else _live() as said, stoppable(said) as report:
-        train(task, run, architecture=architecture, recipe=recipe, settings=settings, report=report)
+        train(
+            task,
+            run,
+            architecture=architecture,
+            recipe=recipe,
+            settings=settings,
+            minutes=chosen["minutes"],
+            report=report,
+        )
     if not as_json:
         result({"model": str(run / "model.safetensors")}, as_json=False)
 

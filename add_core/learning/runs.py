@@ -12,6 +12,7 @@ from .._check import IntArray
 from ..errors import ParameterError
 from ..io import Collection
 from .architectures import SPECIFICATIONS, build_network, default_alphas
+from .budget import within
 from .inputs import InputRecipe
 from .model import Model
 from .settings import TrainingSettings
@@ -36,10 +37,11 @@ class LearningTask:
     symmetry: IntArray | None = None
 
     @classmethod
-    def of(cls, collection: Collection, *, variations: int = 0, seed: int = 0) -> LearningTask:
+    def of(cls, collection: Collection, *, most: int | None = None, variations: int = 0, seed: int = 0) -> LearningTask:
         """The training part of a collection's split, all of it where there is no split; its test part is left alone.
 
         The last of three or more subjects is kept for validation, else the last tenth of the shapes.
+        most : shapes to train on, and half as many to validate by, spread over those there are; None for all.
         variations : of each training shape, beside the shape itself; see `vary`. The validation shapes, then, are one
             as it is and one varied by turns: a deliberately different set.
         """
@@ -53,8 +55,10 @@ class LearningTask:
                 f"{collection.title} must hold at least four shapes to train on, but it has {len(chosen)}."
             )
         reference = int(chosen[0])
-        training = places_of(collection, chosen[~held], reference=reference)
-        validation = places_of(collection, chosen[held], reference=reference)
+        training = places_of(collection, _spread(chosen[~held], most), reference=reference)
+        validation = places_of(
+            collection, _spread(chosen[held], None if most is None else most // 2), reference=reference
+        )
         seeds = iter(np.random.SeedSequence(seed).generate_state(len(chosen) * (1 + variations)).tolist())
         varied = [vary(item, seed=next(seeds)) for _ in range(variations) for item in training]
         if variations:
@@ -69,6 +73,7 @@ def train(
     architecture: str = "mADD3",
     recipe: InputRecipe | None = None,
     settings: TrainingSettings | None = None,
+    minutes: float | None = None,
     precision: Precision = "float16",
     report: Report | None = None,
     workers: int | None = None,
@@ -77,7 +82,8 @@ def train(
 
     The same call with the same folder goes on where an earlier one was stopped, bit for bit, spectra included.
     architecture : "ADD1" … "mADD4". recipe : how inputs are made; the paper's α for that network and 16 angles unless
-    given. report : called with a dictionary for each event: "prepare", "step", "validation" and "done". Returning
+    given. minutes : instead of the settings' steps, as many as this machine takes in that time once the inputs are
+    there. report : called with a dictionary for each event: "prepare", "step", "validation" and "done". Returning
         False stops, as for `fit`. precision, workers : of the prepared inputs, see `prepare`.
 
     Raises ParameterError for sets or settings that do not fit, GeometryError for a shape without a usable surface,
@@ -109,16 +115,29 @@ def train(
     chosen = settings or TrainingSettings()
     if network.is_classifier and settings is None:
         chosen = replace(chosen, loss="multinomial")
-    return fit(
-        network.architecture,
-        made,
-        prepared[: len(task.training)],
-        folder,
-        settings=chosen,
-        validation=prepared[len(task.training) :],
-        symmetry=task.symmetry,
-        report=report,
-    )
+
+    def run(settings: TrainingSettings, folder: Path, report: Report | None) -> Model:
+        return fit(
+            network.architecture,
+            made,
+            prepared[: len(task.training)],
+            folder,
+            settings=settings,
+            validation=prepared[len(task.training) :],
+            symmetry=task.symmetry,
+            report=report,
+        )
+
+    if minutes is not None:
+        chosen = within(minutes, chosen, Path(folder), run)
+    return run(chosen, Path(folder), report)
+
+
+def _spread(indices: IntArray, most: int | None) -> IntArray:
+    """At most so many of the indices, at least two, evenly over all of them."""
+    if most is None or len(indices) <= max(most, 2):
+        return indices
+    return indices[np.linspace(0, len(indices) - 1, max(most, 2)).round().astype(np.int64)]
 
 
 def _prepared(name: str, done: int, total: int) -> dict[str, object]:

@@ -86,11 +86,11 @@ def test_a_training_that_is_told_to_end_keeps_its_last_step(folder, tmp_path):
     with subprocess.Popen(
         [sys.executable, "-m", "add_core.cli", *command], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
     ) as process:
-        while json.loads(process.stdout.readline())["event"] != "step":
+        while json.loads(line := process.stdout.readline())["event"] != "step":
             pass
         process.send_signal(signal.SIGTERM)
         out, err = process.communicate(timeout=60)
-    last = json.loads(out.splitlines()[-1])["step"]
+    last = json.loads([line, *out.splitlines()][-1])["step"]
     assert process.returncode == 130
     assert f"Stopped on request after step {last} of 100000" in err
     kept = torch.load(tmp_path / "run" / "checkpoint.pt", weights_only=True)
