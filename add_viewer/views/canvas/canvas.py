@@ -1,59 +1,36 @@
-"""The view that a person works in: orbit, hover, click."""
+"""What is drawn in a view, and which of its vertices lies where."""
 
 from __future__ import annotations
 
 import numpy as np
 import pyvista as pv
 from numpy.typing import NDArray
-from PySide6.QtCore import QEvent, QPoint, QPointF, Qt, Signal
-from PySide6.QtGui import QImage, QMouseEvent, QResizeEvent, QWheelEvent
-from PySide6.QtWidgets import QApplication
+from PySide6.QtCore import QPointF
+from PySide6.QtGui import QImage
 
 from ...models.fields import ShapeField
 from ...models.picks import Pick
 from ...models.results import DirectionField
 from ...models.shapes import OpenShape, Shape
 from ..theme import LIGHT, Theme
-from .camera import VIEW_ANGLE, OrbitCamera
 from .marks import Needles, best_actors, marker_actors
+from .orbit_view import OrbitView
 from .picker import POINT_REACH, CloudPicker
 from .picture import take_picture
 from .surface import Surface
-from .view3d import View3D
 
 FloatArray = NDArray[np.float64]
 
-VIEWS = {"front": (0.0, 0.0), "back": (180.0, 0.0), "left": (90.0, 0.0), "right": (-90.0, 0.0), "top": (0.0, 89.0)}
 
-
-class Canvas(View3D):
-    """One shape, its field, its markers. Emits what a person does; draws what it is told.
-
-    vertex_hovered : the vertex under the cursor or -1. vertex_clicked : vertex (-1 beside the shape) and modifier keys.
-    menu_requested : global place and vertex or -1. camera_moved : the picture's axes turned.
-    steered : the person moved the camera, by this method of `OrbitCamera` with these arguments.
-    """
-
-    vertex_hovered = Signal(int)
-    vertex_clicked = Signal(int, object)
-    menu_requested = Signal(QPoint, int)
-    camera_moved = Signal()
-    steered = Signal(str, tuple)
-    painted = Signal()
+class Canvas(OrbitView):
+    """One shape, its field, its markers: draws what it is told."""
 
     def __init__(self, parent: object = None) -> None:
         super().__init__(parent)
-        self.camera_model = OrbitCamera()
         self._body: Surface | None = None
         self._needles: Needles | None = None
         self._marks: list[pv.Actor] = []
         self._best: list[pv.Actor] = []
-        self._pressed: QPointF | None = None
-        self._last = QPointF()
-        self._dragging = False
-        self._fitted = True
-        self._below = 0
-        self._hovered = -1
         _add_lights(self)
         self.show_theme(LIGHT)
 
@@ -144,49 +121,9 @@ class Canvas(View3D):
     def shown(self) -> Shape | None:
         return None if self._body is None else self._body.shape
 
-    # -- camera -------------------------------------------------------------------------------------------------------
-
-    def look(self, view: str) -> None:
-        """Look from "front", "back", "left", "right" (the shape's own) or "top", with the whole shape in view."""
-        self.camera_model.azimuth, self.camera_model.elevation = VIEWS[view]
-        self.fit()
-
-    def fit(self) -> None:
-        """Move so that the whole shape is in view, from the same side."""
-        if self.shown is not None:
-            height = max(self.height(), 1)
-            below = min(self._below / height, 0.5)
-            self.camera_model.fit(self.shown.vertices, self.width() / height, below)
-        self._fitted = True
-        self._place_camera()
-
-    def leave_below(self, pixels: int) -> None:
-        """Keep so much room free below the shape, for a label, where the view is fitted to it."""
-        if pixels != self._below:
-            self._below = pixels
-            if self._fitted:
-                self.fit()
-
-    def steer(self, move: str, arguments: tuple[float, ...]) -> None:
-        """Move the camera by a method of `OrbitCamera`: "rotate", "pan" or "zoom"."""
-        getattr(self.camera_model, move)(*arguments)
-        self._fitted = False
-        self._place_camera()
-
-    def face(self, other: Canvas) -> None:
-        """Look from the same side as another view."""
-        self.camera_model.face(other.camera_model)
-        self.fit()
-
-    def _place_camera(self) -> None:
-        model, camera = self.camera_model, self.renderer.GetActiveCamera()
-        camera.SetViewAngle(VIEW_ANGLE)
-        camera.SetFocalPoint(model.focal)
-        camera.SetPosition(model.focal + model.distance * model.direction)
-        camera.SetViewUp(model.axes[1])
-        self.renderer.ResetCameraClippingRange()
-        self.camera_moved.emit()
-        self.draw_moving()
+    @property
+    def extent(self) -> FloatArray | None:
+        return None if self._body is None else self._body.shape.vertices
 
     # -- picking ------------------------------------------------------------------------------------------------------
 
@@ -227,78 +164,7 @@ class Canvas(View3D):
         screen: FloatArray = window @ project
         return screen
 
-    # -- mouse --------------------------------------------------------------------------------------------------------
-
-    def mousePressEvent(self, event: QMouseEvent) -> None:
-        self._pressed = self._last = event.position()
-        self._dragging = False
-        self.setFocus(Qt.FocusReason.MouseFocusReason)
-
-    def mouseMoveEvent(self, event: QMouseEvent) -> None:
-        if self._pressed is None:
-            self._hover(self.vertex_at(event.position()))
-            return
-        moved = event.position() - self._pressed
-        if self._dragging or moved.manhattanLength() >= QApplication.startDragDistance() / 2:
-            self._dragging = True
-            self._drag(event)
-            self._last = event.position()
-
-    def mouseReleaseEvent(self, event: QMouseEvent) -> None:
-        was_click = self._pressed is not None and not self._dragging
-        self._pressed = None
-        self._dragging = False
-        if was_click and event.button() == Qt.MouseButton.LeftButton:
-            self.vertex_clicked.emit(self.vertex_at(event.position()), event.modifiers())
-        elif was_click and event.button() == Qt.MouseButton.RightButton:
-            self.menu_requested.emit(event.globalPosition().toPoint(), self.vertex_at(event.position()))
-
-    def mouseDoubleClickEvent(self, event: QMouseEvent) -> None:
-        self.mousePressEvent(event)
-
-    def wheelEvent(self, event: QWheelEvent) -> None:
-        notches = event.angleDelta().y() / 120.0
-        x, y = self._from_centre(event.position())
-        self._steer_by_hand("zoom", 1.15**notches, x, y)
-
-    def leaveEvent(self, event: QEvent) -> None:
-        self._hover(-1)
-        super().leaveEvent(event)
-
-    def _drag(self, event: QMouseEvent) -> None:
-        step = event.position() - self._last
-        height = max(self.height(), 1)
-        pans = event.buttons() & Qt.MouseButton.MiddleButton or event.modifiers() & Qt.KeyboardModifier.ShiftModifier
-        if event.buttons() & Qt.MouseButton.RightButton:
-            self._steer_by_hand("zoom", 4.0 ** (-step.y() / height))
-        elif pans:
-            self._steer_by_hand("pan", step.x() / height, -step.y() / height)
-        else:
-            self._steer_by_hand("rotate", 220.0 * step.x() / height, 220.0 * step.y() / height)
-
-    def _steer_by_hand(self, move: str, *arguments: float) -> None:
-        self.steer(move, arguments)
-        self.steered.emit(move, arguments)
-
-    def _from_centre(self, place: QPointF) -> tuple[float, float]:
-        height = max(self.height(), 1)
-        return (place.x() - self.width() / 2) / height, (self.height() / 2 - place.y()) / height
-
-    def _hover(self, vertex: int) -> None:
-        if vertex != self._hovered:
-            self._hovered = vertex
-            self.vertex_hovered.emit(vertex)
-
     # -- painting -----------------------------------------------------------------------------------------------------
-
-    def resizeEvent(self, event: QResizeEvent) -> None:
-        super().resizeEvent(event)
-        if self._fitted:
-            self.fit()
-
-    def paintGL(self) -> None:
-        super().paintGL()
-        self.painted.emit()
 
     def picture(self, scale: float, *, transparent: bool) -> QImage:
         """The scene alone at `scale` times the widget's size in device-independent pixels."""
@@ -317,7 +183,7 @@ def _normals(shape: Shape) -> FloatArray | None:
     return getattr(shape, "vertex_normals", None) if not hasattr(shape, "normals") else shape.normals
 
 
-def _add_lights(view: View3D) -> None:
+def _add_lights(view: OrbitView) -> None:
     """A gentle key from the upper left and a weak fill from the right; both move with the eye: no side is black."""
     for place, intensity in (((-0.5, 0.7, 1.0), 0.66), ((1.0, 0.1, 0.5), 0.30), ((0.0, 0.0, 1.0), 0.26)):
         light = pv.Light(position=place, focal_point=(0, 0, 0), light_type="camera light", intensity=intensity)
