@@ -1,4 +1,4 @@
-"""`add-viewer [FILE…] [--screenshot PNG]`: where models, controllers, views and tasks are put together."""
+"""`add-viewer [FILE…] [--session FILE] [--screenshot PNG]`: where everything is put together."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ def main(arguments: list[str] | None = None) -> int:
     problem = graphics_problem()
     if problem is not None:
         return _fail(problem)
-    chosen = {"size": options.size, "theme": options.theme, "pick": options.pick}
+    chosen = {"session": options.session, "size": options.size, "theme": options.theme, "pick": options.pick}
     return Assembly(options.files, options.screenshot, app=app, read=read, **chosen).run()
 
 
@@ -46,6 +46,7 @@ def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(prog="add-viewer", description=_DESCRIPTION)
     parser.add_argument("files", metavar="FILE", nargs="*", help=_FILES)
     parser.add_argument("--screenshot", metavar="PNG", type=Path, help="save a picture of the window and end")
+    parser.add_argument("--session", metavar="FILE", type=Path, help="open a session that was saved")
     parser.add_argument("--size", metavar="WxH", type=_size, help="size of the window, e.g. 1440x900")
     parser.add_argument("--theme", choices=("system", "light", "dark"), help="colours of the window, for this time")
     parser.add_argument(

@@ -20,23 +20,30 @@ from .controllers.directions import DirectionsController
 from .controllers.exporting import curves_table, write_atomically
 from .controllers.job_folders import default_home
 from .controllers.jobs import JobsController
+from .controllers.keeping import KeepingController, Outside, Process
 from .controllers.kernel import KernelController
-from .controllers.opening import OpeningController, Read
+from .controllers.opening import OpeningController, Read, read_shape
 from .controllers.operators import OperatorStore
 from .controllers.running import explain
 from .models.display import Display
 from .models.jobs import Jobs
 from .models.results import Results
 from .models.session import Session
+from .models.session_file import ENDING
 from .models.shapes import OpenShape
 from .tasks.delay import Delay
+from .tasks.identity import ProcessIdentity
 from .tasks.processes import ProcessRunner
 from .tasks.worker import Worker
 from .views.background import BackgroundViews
 from .views.main_window import MainWindow
 from .views.saving import Saving, save_image
+from .views.session_files import Recovery, SessionFiles
 from .views.settings import Settings
 from .views.start_page import Gallery
+
+KEEPING_PAUSE = 700
+"""Milliseconds after a change until the session is kept: a drag writes its file once or twice, not for every step."""
 
 CURVE_PAUSE = 180
 """Milliseconds without a change before curves are computed: a kernel that the person waits for comes first."""
@@ -67,6 +74,7 @@ class Assembly:
         pick: list[int] | None = None,
         store: QSettings | None = None,
         read: Read | None = None,
+        session: Path | None = None,
     ) -> None:
         self.app = application() if app is None else app
         self._files, self._screenshot, self._picks = files, screenshot, pick or []
@@ -77,6 +85,7 @@ class Assembly:
             store = QSettings(os.devnull, QSettings.Format.IniFormat)
         self.window = MainWindow(self.session, self.results, self.display, Settings(store), _galleries())
         self._control(read)
+        self._keep(read, session)
         self._run_jobs(restore=screenshot is None)
         if theme is not None:
             self.display.set("theme", theme)
@@ -91,8 +100,30 @@ class Assembly:
         self.kernel = KernelController(self.session, self.results, self.display, run, operators)
         self.directions = DirectionsController(self.session, self.results, self.display, run, operators)
         self.curves = CurvesController(self.session, self.results, run, self._curve_delay, operators)
-        self.window.open_requested.connect(self.opening.open)
+        self.window.open_requested.connect(self._open)
         self.saving = Saving(self.window, write_atomically, curves_table, explain)
+
+    def _keep(self, read: Read | None, session: Path | None) -> None:
+        self._session_path = session
+        identity = ProcessIdentity.of(os.getpid())
+        process = Process(identity.pid, identity.began, lambda pid, began: ProcessIdentity(pid, began).is_alive)
+        run, later = self.worker.submit, Delay(KEEPING_PAUSE)
+        self.keeping = KeepingController(self.session, self.results, run, later, process, read=read or read_shape)
+        self.keeping.autosaves = self._screenshot is None
+        self.keeping.opened = lambda path: self.window.remember(str(path))
+        self.keeping.failed = lambda reason: self._failures.append(reason)
+        self.session_files = SessionFiles(self.window, self.keeping, explain)
+        files = self.session_files
+        self.keeping.outside = Outside(files.cameras, files.layout, files.apply)
+        self.recovery = Recovery(self.keeping, files.banner)
+        if self._screenshot is None:
+            self.recovery.offer()
+
+    def _open(self, reference: str) -> None:
+        if reference.endswith(ENDING):
+            self.keeping.open(Path(reference))
+        else:
+            self.opening.open(reference)
 
     def _run_jobs(self, *, restore: bool) -> None:
         self.jobs = Jobs(default_home())
@@ -117,8 +148,10 @@ class Assembly:
         """Show the window until it is closed, or save a picture of it and end."""
         logging.basicConfig(level=logging.WARNING, format="%(name)s: %(message)s")
         self.window.show()
+        if self._session_path is not None:
+            self.keeping.open(self._session_path)
         for reference in self._files:
-            self.opening.open(reference)
+            self._open(reference)
         if self._screenshot is not None:
             self._watch = QTimer(interval=50)
             self._watch.timeout.connect(self._take_screenshot)
@@ -131,6 +164,7 @@ class Assembly:
 
     def stop(self) -> None:
         """End the thread and close the window."""
+        self.keeping.end()
         self._curve_delay.cancel()
         self.worker.stop()
         self.window.close()

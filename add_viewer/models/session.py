@@ -208,6 +208,10 @@ class Session:
         """Remove every pick on every shape."""
         self._apply("clear", replace(self.state, picks=()))
 
+    def restore(self, state: SessionState) -> None:
+        """Put a session that was kept in the place of this one; undo brings this one back."""
+        self._apply("restore", state)
+
     # -- undo ---------------------------------------------------------------------------------------------------------
 
     @property

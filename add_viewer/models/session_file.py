@@ -23,6 +23,7 @@ FORMAT, VERSION, ENDING = "add-viewer session", 1, ".addsession"
 LARGEST = 4_000_000
 """Bytes; more is no session."""
 _EMPTY = SessionState()
+_RANGED = ("diffusion", "field", "compare", "arrangement", "matching")
 
 
 class SessionFileError(PlainDataError):
@@ -31,7 +32,10 @@ class SessionFileError(PlainDataError):
 
 @dataclass(frozen=True)
 class CameraPlace:
-    """Where the eye of one view is. Angles in degrees, lengths in geodesic diameters."""
+    """Where the eye of one view is. Angles in degrees, lengths in geodesic diameters.
+
+    shape : its number. fitted : as far away as the whole shape needs; a window of another size then fits it anew.
+    """
 
     shape: int
     panel: int = 0
@@ -39,6 +43,7 @@ class CameraPlace:
     elevation: float = 0.0
     focal: tuple[float, float, float] = (0.0, 0.0, 0.0)
     distance: float = 1.0
+    fitted: bool = False
 
 
 @dataclass(frozen=True)
@@ -157,6 +162,13 @@ def read_session(path: Path) -> KeptSession:
         raise SessionFileError(f"{path.name} is damaged: {error}") from None
 
 
+def kept_process(path: Path) -> tuple[int, str]:
+    """The process that wrote a session which `read_session` can read: its number, and when it began."""
+    kept = json.loads(path.read_text(encoding="utf-8")).get("process")
+    is_process = isinstance(kept, list) and len(kept) == 2 and isinstance(kept[0], int)
+    return (kept[0], str(kept[1])) if is_process else (0, "")
+
+
 def _read_content(content: Mapping[str, Any], path: Path) -> KeptSession:
     version = content.get("version")
     if version != VERSION:
@@ -164,9 +176,13 @@ def _read_content(content: Mapping[str, Any], path: Path) -> KeptSession:
         remedy = "Update the app to open it." if newer else f"This app reads version {VERSION}."
         raise SessionFileError(f"{path.name} is of version {version!r}, which this app does not know. {remedy}")
     kept = from_plain(KeptSession, content, "")
-    ranged = {name: getattr(kept, name).with_changes() for name in ("diffusion", "field", "arrangement", "matching")}
-    compare = None if kept.compare is None else kept.compare.with_changes()
-    return _with_paths(replace(kept, **ranged, compare=compare), lambda text: _absolute(text, path.parent))
+    ranged = {name: _in_range(getattr(kept, name)) for name in _RANGED}
+    return _with_paths(replace(kept, **ranged), lambda text: _absolute(text, path.parent))
+
+
+def _in_range(value: Any) -> Any:
+    """The same with every number brought into range, as if a person had asked for it."""
+    return None if value is None else type(value)().with_changes(**to_plain(value))
 
 
 def _kept_shape(shape: OpenShape, look: ShapeLook) -> KeptShape:

@@ -18,7 +18,9 @@ from PySide6.QtWidgets import (
 
 from .theme import GRID
 
-SHAPE_FILTER = "Shapes (*.off *.obj *.ply *.stl *.vtk *.vtp *.glb *.gltf *.xyz);;All files (*)"
+SHAPE_FILTER = (
+    "Shapes and sessions (*.off *.obj *.ply *.stl *.vtk *.vtp *.glb *.gltf *.xyz *.addsession);;All files (*)"
+)
 CURVE_FILTERS = {
     "SVG, for papers (*.svg)": ".svg",
     "PDF, for papers (*.pdf)": ".pdf",

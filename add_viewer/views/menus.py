@@ -30,6 +30,11 @@ FILE = (
     Entry("start", "Open &shipped shape…", "Ctrl+Shift+O", "mdi6.human-handsup", "Choose one of the people and dogs"),
     Entry("recent", "Open &recent"),
     Entry("", ""),
+    Entry("save_session", "&Save session", "Ctrl+S", "mdi6.content-save-outline", "Shapes, picks, views and panels"),
+    Entry("save_session_as", "Save session &as…", "Ctrl+Shift+S", "mdi6.content-save-edit-outline"),
+    Entry("open_session", "Open sessio&n…", "", "mdi6.folder-clock-outline", "Go on where a session was saved"),
+    Entry("last_session", "Go on with the &last session", "", "mdi6.history", "As it was when the app was closed last"),
+    Entry("", ""),
     Entry(
         "screenshot", "Save &picture…", "Ctrl+P", "mdi6.camera-outline", "Save the view as a PNG, up to 4×, transparent"
     ),

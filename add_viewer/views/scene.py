@@ -21,9 +21,11 @@ class SceneView(QWidget):
     """Lays out the views of the session. A view that is not needed is kept for the next shape: graphics contexts are
     dear, and drivers do not like them to come and go.
 
-    hovered : text for the status line. menu_requested : global place, key and vertex (-1 beside the shape).
+    camera_moved : in whichever view. hovered : text for the status line.
+    menu_requested : global place, key and vertex (-1 beside the shape).
     """
 
+    camera_moved = Signal()
     hovered = Signal(str)
     menu_requested = Signal(QPoint, str, int)
 
@@ -110,6 +112,7 @@ class SceneView(QWidget):
         view.show_theme(self._theme)
         view.hovered.connect(self.hovered)
         view.menu_requested.connect(self.menu_requested)
+        view.canvas.camera_moved.connect(self.camera_moved)
         view.canvas.steered.connect(lambda move, arguments: self._follow(view, move, arguments))
         self._pool.insert(number, view)
         return view

@@ -8,7 +8,8 @@ from PySide6.QtWidgets import QMainWindow
 from ..models.display import Display
 
 RECENT_LIMIT = 10
-_LAYOUT_VERSION = 1
+LAYOUT_VERSION = 1
+"""Raised when panels are added or renamed: a state that Qt packed for others must not be restored."""
 
 
 class Settings:
@@ -33,12 +34,12 @@ class Settings:
         geometry, state = self._store.value("window/geometry"), self._store.value("window/state")
         if not isinstance(geometry, QByteArray) or not isinstance(state, QByteArray):
             return False
-        return window.restoreGeometry(geometry) and window.restoreState(state, _LAYOUT_VERSION)
+        return window.restoreGeometry(geometry) and window.restoreState(state, LAYOUT_VERSION)
 
     def keep_window(self, window: QMainWindow) -> None:
         """Remember size, place and docks."""
         self._store.setValue("window/geometry", window.saveGeometry())
-        self._store.setValue("window/state", window.saveState(_LAYOUT_VERSION))
+        self._store.setValue("window/state", window.saveState(LAYOUT_VERSION))
 
     @property
     def recent(self) -> list[str]:

@@ -126,3 +126,12 @@ def test_a_display_that_does_not_answer_is_told_before_qt_aborts(monkeypatch, ca
         pytest.skip("X is for Linux")
     assert main(["humans/0"]) == 2
     assert "does not answer" in capsys.readouterr().err
+
+
+def test_a_bad_session_is_one_line_and_status_two(screen, tmp_path: Path):
+    path = tmp_path / "later.addsession"
+    path.write_text('{"format": "add-viewer session", "version": 99}')
+    done = viewer("--session", str(path), "--screenshot", str(tmp_path / "window.png"))
+    assert done.returncode == 2
+    assert len(done.stderr.strip().splitlines()) == 1
+    assert "version 99" in done.stderr

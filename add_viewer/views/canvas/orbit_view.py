@@ -81,6 +81,23 @@ class OrbitView(View3D):
         self._fitted = False
         self._place_camera()
 
+    def stand(
+        self, azimuth: float, elevation: float, focal: tuple[float, float, float], distance: float, *, fitted: bool
+    ) -> None:
+        """Put the eye where it once stood. fitted : as far away as the whole shape needs in this view."""
+        self.camera_model.azimuth, self.camera_model.elevation = azimuth, elevation
+        if fitted:
+            self.fit()
+        else:
+            self.camera_model.focal, self.camera_model.distance = np.array(focal), distance
+            self._fitted = False
+            self._place_camera()
+
+    @property
+    def is_fitted(self) -> bool:
+        """Whether the whole shape is in view, and stays so when the view is resized."""
+        return self._fitted
+
     def face(self, other: OrbitView) -> None:
         """Look from the same side as another view."""
         self.camera_model.face(other.camera_model)
