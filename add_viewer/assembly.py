@@ -14,6 +14,7 @@ from PySide6.QtWidgets import QApplication
 
 from add_core.io import SHIPPED
 
+from .controllers import disk
 from .controllers.carrying import CarryingController
 from .controllers.curves import CurvesController
 from .controllers.directions import DirectionsController
@@ -40,6 +41,7 @@ from .views.main_window import MainWindow
 from .views.saving import Saving, save_image
 from .views.session_files import Recovery, SessionFiles
 from .views.settings import Settings
+from .views.settings_dialog import Disk
 from .views.start_page import Gallery
 
 KEEPING_PAUSE = 700
@@ -109,15 +111,31 @@ class Assembly:
         process = Process(identity.pid, identity.began, lambda pid, began: ProcessIdentity(pid, began).is_alive)
         run, later = self.worker.submit, Delay(KEEPING_PAUSE)
         self.keeping = KeepingController(self.session, self.results, run, later, process, read=read or read_shape)
-        self.keeping.autosaves = self._screenshot is None
         self.keeping.opened = lambda path: self.window.remember(str(path))
         self.keeping.failed = lambda reason: self._failures.append(reason)
         self.session_files = SessionFiles(self.window, self.keeping, explain)
         files = self.session_files
         self.keeping.outside = Outside(files.cameras, files.layout, files.apply)
+        self._keep_settings()
         self.recovery = Recovery(self.keeping, files.banner)
         if self._screenshot is None:
             self.recovery.offer()
+
+    def _keep_settings(self) -> None:
+        settings = self.window.settings
+
+        def set_limit(gigabytes: float) -> None:
+            settings.cache_limit = gigabytes
+            disk.set_limit(gigabytes)
+
+        if settings.cache_limit is not None and disk.LIMIT not in os.environ:
+            disk.set_limit(settings.cache_limit)
+        self.window.aids.disk = Disk(disk.used, disk.limit, set_limit, disk.clear)
+        self.display.changed.connect(self._show_autosave)
+        self._show_autosave()
+
+    def _show_autosave(self, _name: str = "autosave") -> None:
+        self.keeping.autosaves = self._screenshot is None and self.display["autosave"]
 
     def _open(self, reference: str) -> None:
         if reference.endswith(ENDING):

@@ -11,7 +11,7 @@ import numpy as np
 from .._check import FloatArray
 from .colours import SKIN, kernel_map, oklab_to_srgb, srgb_to_oklab, theta_colour
 
-Tones = Literal["kernel", "distance", "signed", "sequential", "angle"]
+Tones = Literal["kernel", "distance", "signed", "sequential", "angle", "grey"]
 
 BLUE, RED = 255.0, 32.0
 """Hues, in degrees, of the cold and the hot end: they differ for every kind of colour-blindness."""
@@ -57,6 +57,14 @@ def sequential_map(size: int = 256) -> FloatArray:
 
 
 @cache
+def grey_map(size: int = 256) -> FloatArray:
+    """(size, 3): from bare skin to nearly black, for print without colours."""
+    skin = srgb_to_oklab(SKIN)
+    share = np.linspace(1.0, 0.0, size)[:, None]
+    return oklab_to_srgb(share * skin + (1.0 - share) * np.array([0.24, 0.0, 0.0]))
+
+
+@cache
 def angle_map(size: int = 256) -> FloatArray:
     """(size, 3): the hue of θ from 0 to π, the first colour coming again at the end."""
     return theta_colour(np.linspace(0.0, np.pi, size))
@@ -68,6 +76,7 @@ _MAPS: dict[Tones, Callable[[int], FloatArray]] = {
     "signed": signed_map,
     "sequential": sequential_map,
     "angle": angle_map,
+    "grey": grey_map,
 }
 
 

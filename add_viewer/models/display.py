@@ -9,9 +9,17 @@ from psygnal import Signal
 THEMES = ("system", "light", "dark")
 KERNEL_SCALES = ("linear", "log")
 UP_AXES = ("auto", "+y", "+z")
+KERNEL_COLOURS = ("kernel", "sequential", "grey")
+SAMPLES = ("4", "8", "0")
 
-_CHOICES = {"theme": THEMES, "kernel_scale": KERNEL_SCALES, "up_axis": UP_AXES}
-_SWITCHES = {"arrows": False, "wireframe": False, "colour_bar": True, "relative_curves": True}
+_CHOICES = {
+    "theme": THEMES,
+    "kernel_scale": KERNEL_SCALES,
+    "up_axis": UP_AXES,
+    "kernel_colours": KERNEL_COLOURS,
+    "samples": SAMPLES,
+}
+_SWITCHES = {"arrows": False, "wireframe": False, "colour_bar": True, "relative_curves": True, "autosave": True}
 
 
 class Display:
@@ -20,7 +28,7 @@ class Display:
     changed = Signal(str)
 
     def __init__(self) -> None:
-        self._values: dict[str, Any] = {name: options[0] for name, options in _CHOICES.items()} | dict(_SWITCHES)
+        self._values = _defaults()
 
     def __getitem__(self, name: str) -> Any:
         return self._values[name]
@@ -32,5 +40,14 @@ class Display:
             self._values[name] = value
             self.changed.emit(name)
 
+    def reset(self) -> None:
+        """Everything as it was at the first start."""
+        for name, value in _defaults().items():
+            self.set(name, value)
+
     def as_dict(self) -> dict[str, Any]:
         return dict(self._values)
+
+
+def _defaults() -> dict[str, Any]:
+    return {name: options[0] for name, options in _CHOICES.items()} | dict(_SWITCHES)

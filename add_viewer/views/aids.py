@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from ..models.commands import Command
 from .command_palette import CommandPalette
+from .settings_dialog import Disk, SettingsDialog
 from .shortcut_sheet import ShortcutSheet
 from .theme import Theme
 
@@ -24,11 +25,19 @@ class Aids:
         self.palette.sources += [self._open_shapes, self._shipped_shapes]
         window.menus.on("palette", self.palette.open)
         window.menus.on("shortcuts", self.show_shortcuts)
+        window.menus.on("settings", self.show_settings)
+        self.disk: Disk | None = None
 
     def show_shortcuts(self) -> None:
         """The sheet of what mouse and keyboard do."""
         self.sheet = ShortcutSheet(self._window)
         self.sheet.open()
+
+    def show_settings(self) -> None:
+        """The settings, beside the window that they change."""
+        assert self.disk is not None, "the assembly says where spectra are kept"
+        self.settings = SettingsDialog(self._window.display, self.disk, self._window.reset_layout, self._window)
+        self.settings.show()
 
     def show_theme(self, theme: Theme) -> None:
         """The palette in the theme's colours."""

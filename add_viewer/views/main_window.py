@@ -105,9 +105,17 @@ class MainWindow(QMainWindow):
             "Curves at the picked points", self.curves, Qt.DockWidgetArea.BottomDockWidgetArea
         )
         self.parameter_dock.setMinimumWidth(37 * GRID)
+        self._size_panels()
+        self._build_status()
+
+    def _size_panels(self) -> None:
         self.resizeDocks([self.parameter_dock], [38 * GRID], Qt.Orientation.Horizontal)
         self.resizeDocks([self.curve_dock], [30 * GRID], Qt.Orientation.Vertical)
-        self._build_status()
+
+    def reset_layout(self) -> None:
+        """Panels where they were at the first start."""
+        self.panels.reset()
+        self._size_panels()
 
     def _build_status(self) -> None:
         self.hover_label, self.busy_label, self.progress = QLabel(), QLabel(), QProgressBar()

@@ -54,6 +54,8 @@ EDIT = (
     Entry("clear", "&Clear picks", "Esc", "mdi6.close-circle-outline"),
     Entry("", ""),
     Entry("play", "&Play θ", "Space", "mdi6.play", "Turn θ from 0° to 180°"),
+    Entry("", ""),
+    Entry("settings", "Se&ttings…", "Ctrl+,", "mdi6.cog-outline", "Colours, edges, what is kept, and resetting it all"),
 )
 LOOKS = (
     Entry("fit", "&Fit to view", "F", "mdi6.fit-to-page-outline", "The whole shape, from the same side"),
@@ -186,9 +188,9 @@ class Menus:
 
     def _show_display(self, name: str) -> None:
         value = self._display[name]
-        if isinstance(value, bool):
+        if isinstance(value, bool) and name in self.actions:
             self.actions[name].setChecked(value)
-        else:
+        elif f"{name}:{value}" in self.actions:
             self.actions[f"{name}:{value}"].setChecked(True)
 
     def show_theme(self, theme: Theme) -> None:

@@ -17,12 +17,14 @@ class Panels:
         self._docks: list[QDockWidget] = []
         self._titles: list[DockTitle] = []
         self._hidden: list[QDockWidget] | None = None
+        self._places: list[tuple[QDockWidget, Qt.DockWidgetArea | QDockWidget]] = []
 
     def add(self, title: str, widget: QWidget, area: Qt.DockWidgetArea) -> QDockWidget:
         """A new panel on one side of the window."""
         dock = self._made(title, widget)
         self._window.addDockWidget(area, dock)
         self._docks.append(dock)
+        self._places.append((dock, area))
         return dock
 
     def add_beside(self, other: QDockWidget, title: str, widget: QWidget) -> QDockWidget:
@@ -32,7 +34,21 @@ class Panels:
             self._window.addDockWidget(self._window.dockWidgetArea(other), dock)
             self._window.tabifyDockWidget(other, dock)
             dock.hide()
+        self._places.append((dock, other))
         return dock
+
+    def reset(self) -> None:
+        """Every panel where it was at the first start."""
+        for dock, place in self._places:
+            dock.setFloating(False)
+            if isinstance(place, QDockWidget):
+                self._window.tabifyDockWidget(place, dock)
+                dock.hide()
+            else:
+                self._window.addDockWidget(place, dock)
+                dock.setVisible(self._hidden is None)
+        if self._hidden is not None:
+            self._hidden = list(self._docks)
 
     def _made(self, title: str, widget: QWidget) -> QDockWidget:
         dock = QDockWidget(title, self._window)

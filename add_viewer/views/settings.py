@@ -67,6 +67,18 @@ class Settings:
         return [kept] if isinstance(kept, str) else [str(each) for each in kept] if isinstance(kept, list) else []
 
     @property
+    def cache_limit(self) -> float | None:
+        """Gigabytes that spectra may take on disk; None: as the core has it."""
+        try:
+            return float(str(self._store.value("cache/gigabytes", "")))
+        except ValueError:
+            return None
+
+    @cache_limit.setter
+    def cache_limit(self, gigabytes: float) -> None:
+        self._store.setValue("cache/gigabytes", gigabytes)
+
+    @property
     def folder(self) -> str:
         """Where files were opened or saved last."""
         return str(self._store.value("folder", ""))

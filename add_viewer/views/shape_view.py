@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from PySide6.QtCore import QPoint, QSize, Qt, Signal
 from PySide6.QtGui import QImage, QPainter, QResizeEvent
 from PySide6.QtWidgets import QVBoxLayout, QWidget
@@ -47,6 +49,7 @@ class ShapeView(QWidget):
         self.triad, self.hint = AxesTriad(self), Hint(self)
         self._overlays: tuple[Overlay, ...] = (self.colour_bar, self.label, self.triad, self.hint)
         self._connect()
+        self._smooth()
 
     def _connect(self) -> None:
         session, results = self._session, self._results
@@ -87,10 +90,15 @@ class ShapeView(QWidget):
             return None
         state = self._session.state
         mine = self._results.fields.get((self.panel, self.key))
-        if mine is None or not state.arrangement.common_range:
+        if mine is None:
+            return None
+        if mine.tones == "kernel":
+            mine = replace(mine, tones=self._display["kernel_colours"])
+        if not state.arrangement.common_range:
             return mine
         others = [self._results.fields.get((self.panel, shape.key)) for shape in state.shown if shape.key != self.key]
-        return in_common_range([mine, *(each for each in others if each is not None)])[0]
+        alike = [replace(each, tones=mine.tones) for each in others if each is not None and each.choice == mine.choice]
+        return in_common_range([mine, *alike])[0]
 
     # -- models to view -----------------------------------------------------------------------------------------------
 
@@ -159,12 +167,18 @@ class ShapeView(QWidget):
     def _show_display(self, name: str) -> None:
         if name == "wireframe":
             self._show_look()
-        elif name == "colour_bar":
+        elif name in ("colour_bar", "kernel_colours"):
             self._show_field()
+        elif name == "samples":
+            self._smooth()
         elif name == "arrows":
             self._show_directions()
         elif name == "up_axis":
             self._show_shape(fresh=True)
+
+    def _smooth(self) -> None:
+        self.canvas.samples = int(self._display["samples"])
+        self.canvas.draw_moving()
 
     def _show_axes(self) -> None:
         self.triad.show_axes(self.canvas.camera_model.axes)

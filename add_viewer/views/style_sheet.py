@@ -32,6 +32,7 @@ QLineEdit { background: $field; border: 1px solid $line; border-radius: 4px; pad
     min-height: 18px; selection-background-color: $accent; selection-color: $on_accent; }
 QLineEdit:focus { border: 1px solid $accent; }
 QComboBox { min-height: 22px; }
+QAbstractSpinBox { min-height: 24px; }
 QPushButton, QToolButton { background: $panel; border: 1px solid $line; border-radius: 4px;
     padding: 4px 10px; min-height: 18px; }
 QToolButton { padding: 4px; }

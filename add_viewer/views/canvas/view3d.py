@@ -29,6 +29,7 @@ class View3D(QtInteractor):  # type: ignore[misc]
 
     def __init__(self, parent: Any = None) -> None:
         super().__init__(parent, auto_update=False, multi_samples=SAMPLES, lighting="none")
+        self.samples = SAMPLES
         self._stillness = QTimer(self, singleShot=True, interval=STILL)
         self._stillness.timeout.connect(self._refine)
         self._Iren.EnableRenderOff()
@@ -42,7 +43,7 @@ class View3D(QtInteractor):  # type: ignore[misc]
 
     def _refine(self) -> None:
         if not getattr(self, "_closed", False):
-            self.render_window.SetMultiSamples(SAMPLES)
+            self.render_window.SetMultiSamples(self.samples)
             self.update()
 
     def _render(self, *_args: Any, **_options: Any) -> None:
