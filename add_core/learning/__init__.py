@@ -5,9 +5,10 @@ from .architectures import Architecture, Network, build_network
 from .inputs import InputRecipe
 from .layers import ASF, FC, SC, ReLU, Softmax
 from .losses import multinomial_loss, siamese_loss, soft_nearest_loss
-from .model import Model, load_model
-from .runs import LearningTask, train
+from .model import Matches, Model, load_model
+from .runs import train
 from .settings import TrainingSettings
+from .task import LearningTask
 from .training_set import TrainingShape, places_of
 
 __all__ = [
@@ -17,6 +18,7 @@ __all__ = [
     "Architecture",
     "InputRecipe",
     "LearningTask",
+    "Matches",
     "Model",
     "Network",
     "ReLU",

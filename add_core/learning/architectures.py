@@ -89,6 +89,7 @@ def build_network(
     splines: int = 150,
     outputs: int = 16,
     reference_size: int = 6890,
+    layers: str | None = None,
     bias: bool = True,
     seed: int = 0,
 ) -> Network:
@@ -96,16 +97,17 @@ def build_network(
 
     name : "ADD1" … "ADD3", "mADD1" … "mADD4". alphas : degrees of anisotropy, (50,) for ADD and (0, 25, 50) for mADD
     unless given. Its input has a channel for each α and angle, α = 0 once: (B, C, splines).
-    outputs : Q of the last layer, where that is FC16 in the paper. reference_size : classes of mADD4.
+    outputs : Q of the last layer, where that is FC16 in the paper. reference_size : classes of mADD4. layers : in place
+    of those of `SPECIFICATIONS`, such as a smaller mADD4.
 
     Raises ParameterError for an unknown name or numbers out of range.
     """
     if name not in SPECIFICATIONS:
         raise ParameterError(f"name must be one of {', '.join(SPECIFICATIONS)}, but it is {name!r}.")
-    layers = re.sub(r"FC16$", f"FC{count_in('outputs', outputs, 1, 100_000)}", SPECIFICATIONS[name])
+    published = re.sub(r"FC16$", f"FC{count_in('outputs', outputs, 1, 100_000)}", SPECIFICATIONS[name])
     architecture = Architecture(
         name,
-        layers,
+        published if layers is None else layers,
         channels=channel_count(default_alphas(name) if alphas is None else alphas, angles),
         splines=count_in("splines", splines, 1, 100_000),
         reference_size=count_in("reference_size", reference_size, 2, 10_000_000),
@@ -119,6 +121,21 @@ def build(architecture: Architecture, *, seed: int = 0) -> Network:
     with torch.random.fork_rng(devices=[]):
         torch.manual_seed(seed)
         return Network(architecture)
+
+
+def take_over(network: Network, start: Network) -> int:
+    """Copy the weights of `start` into `network`, layer by layer from the input on, as long as the layers agree.
+
+    Returns how many layers do, ReLU and SC included.
+    """
+    count = 0
+    for mine, other in zip(network.layers, start.layers, strict=False):
+        shapes = [{name: value.shape for name, value in layer.state_dict().items()} for layer in (mine, other)]
+        if type(mine) is not type(other) or shapes[0] != shapes[1]:
+            break
+        mine.load_state_dict(other.state_dict())
+        count += 1
+    return count
 
 
 def default_alphas(name: str) -> tuple[float, ...]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Any, Literal
@@ -14,7 +14,7 @@ from safetensors import SafetensorError, safe_open
 from safetensors.torch import save_file
 
 from .._assets import asset
-from .._check import FloatArray, one_of
+from .._check import FloatArray, IntArray, one_of, read_only
 from ..errors import AddError, ParameterError, ShapeFileError
 from ..geometry import PointCloud, TriangleMesh
 from ..io import shipped_models
@@ -22,10 +22,21 @@ from .architectures import Architecture, Network, build
 from .inputs import InputRecipe, Inputs, Moments, Progress
 
 FORMAT = "add_core model 1"
+RUN_MODEL = "model.safetensors"
+"""Name of the model in the folder of a training."""
 POINTS_AT_ONCE = 2048
 """Points that go through the network together: some 100 MB of intermediate numbers."""
 
 Standardisation = Literal["shape", "set"]
+Precision = Literal["float16", "float32"]
+
+
+@dataclass(frozen=True, eq=False)
+class Matches:
+    """vertices : (n,), the reference's vertex that each point most probably is. probabilities : (n,), of being it."""
+
+    vertices: IntArray
+    probabilities: FloatArray
 
 
 @dataclass(frozen=True, eq=False)
@@ -34,7 +45,8 @@ class Model:
 
     recipe : how inputs come from a shape. standardisation : "shape" brings every shape's inputs to mean 0 and
         deviation 1 by themselves, "set" by the moments of the training set. card : facts about the training, for
-        people to read.
+        people to read. reference : the shape whose vertices a correspondence network names (its Softmax has one output
+        for each), None if it is not known.
     """
 
     network: Network
@@ -42,6 +54,7 @@ class Model:
     moments: Moments
     standardisation: Standardisation = "shape"
     card: Mapping[str, Any] = field(default_factory=dict)
+    reference: TriangleMesh | None = None
 
     def __post_init__(self) -> None:
         one_of("standardisation", self.standardisation, ("shape", "set"))
@@ -70,17 +83,78 @@ class Model:
 
     def describe_inputs(self, values: Inputs, mass: FloatArray) -> FloatArray:
         """Descriptors, shape (n, Q), from unstandardised inputs (n, C, M) of points of area `mass` (n,)."""
+        return np.concatenate([part.numpy().astype(np.float64) for part in self._outputs(values, mass)])
+
+    def match(
+        self,
+        shape: TriangleMesh | PointCloud,
+        *,
+        progress: Progress | None = None,
+        workers: int | None = None,
+        cache: bool = True,
+    ) -> Matches:
+        """The vertex of the `reference` that every vertex of the shape most probably is; arguments as of `describe`.
+
+        Raises ParameterError if the network does not end in Softmax: compare descriptors of two shapes then.
+        """
+        self._check_classifier()
+        family = self.recipe.spectra(shape, progress=progress, workers=workers, cache=cache)
+        return self.match_inputs(self.recipe.inputs(family), family.mass)
+
+    def match_inputs(self, values: Inputs, mass: FloatArray) -> Matches:
+        """As `match`, from unstandardised inputs (n, C, M) of points of area `mass` (n,)."""
+        self._check_classifier()
+        best = [part.max(dim=1) for part in self._outputs(values, mass)]
+        return Matches(
+            read_only(np.concatenate([part.indices.numpy() for part in best])),
+            read_only(np.concatenate([part.values.numpy().astype(np.float64) for part in best])),
+        )
+
+    def embed_inputs(self, values: Inputs, mass: FloatArray) -> FloatArray:
+        """Numbers (n, D) in which corresponding points of two shapes are near each other, from inputs (n, C, M).
+
+        The descriptors, or the places on the reference that a correspondence network finds: D = 3.
+        Raises ParameterError for a correspondence network without a reference.
+        """
+        if not self.network.is_classifier:
+            return self.describe_inputs(values, mass)
+        if self.reference is None:
+            raise ParameterError("the model must know its reference shape to place points on it, but it has none.")
+        return np.asarray(self.reference.vertices[self.match_inputs(values, mass).vertices])
+
+    def embed(
+        self,
+        shape: TriangleMesh | PointCloud,
+        *,
+        progress: Progress | None = None,
+        workers: int | None = None,
+        cache: bool = True,
+    ) -> FloatArray:
+        """As `embed_inputs`, from the shape; arguments as of `describe`."""
+        family = self.recipe.spectra(shape, progress=progress, workers=workers, cache=cache)
+        return self.embed_inputs(self.recipe.inputs(family), family.mass)
+
+    def _check_classifier(self) -> None:
+        if not self.network.is_classifier:
+            name = self.network.architecture.name
+            raise ParameterError(
+                f"the network must end in Softmax to name vertices of a reference, but {name} gives descriptors. "
+                "Describe two shapes and compare: add-core match."
+            )
+
+    def _outputs(self, values: Inputs, mass: FloatArray) -> Iterator[torch.Tensor]:
         moments = Moments.of(values, mass) if self.standardisation == "shape" else self.moments
         self.network.eval()
-        with torch.inference_mode():
-            parts = [
-                self.network(torch.from_numpy(moments.standardise(values[low : low + POINTS_AT_ONCE])))
-                for low in range(0, len(values), POINTS_AT_ONCE)
-            ]
-        return np.asarray(torch.cat(parts).numpy(), dtype=np.float64)
+        for low in range(0, len(values), POINTS_AT_ONCE):
+            with torch.inference_mode():
+                yield self.network(torch.from_numpy(moments.standardise(values[low : low + POINTS_AT_ONCE])))
 
-    def save(self, path: str | Path) -> None:
-        """Write the model as safetensors, replacing what is there only once everything is written."""
+    def save(self, path: str | Path, *, precision: Precision = "float32") -> None:
+        """Write the model as safetensors, replacing what is there only once everything is written.
+
+        precision : of the weights in the file; "float16" halves it and changes descriptors in the fourth digit.
+        """
+        kept = getattr(torch, one_of("precision", precision, ("float16", "float32")))
         about = {
             "format": FORMAT,
             "architecture": asdict(self.network.architecture),
@@ -88,9 +162,12 @@ class Model:
             "standardisation": self.standardisation,
             "card": dict(self.card),
         }
-        tensors = {f"network.{name}": value.contiguous() for name, value in self.network.state_dict().items()}
+        tensors = {f"network.{name}": value.to(kept).contiguous() for name, value in self.network.state_dict().items()}
         tensors["input.mean"] = torch.from_numpy(np.array(self.moments.mean))
         tensors["input.deviation"] = torch.from_numpy(np.array(self.moments.deviation))
+        if self.reference is not None:
+            tensors["reference.vertices"] = torch.from_numpy(self.reference.vertices.astype(np.float32))
+            tensors["reference.faces"] = torch.from_numpy(self.reference.faces.astype(np.int32))
         target = Path(path)
         target.parent.mkdir(parents=True, exist_ok=True)
         unfinished = target.with_name(f".{target.name}.part")
@@ -101,11 +178,16 @@ class Model:
 
 
 def load_model(model: str | Path) -> Model:
-    """The model in a file, or one that ships with the project, by its name: "humans-madd3".
+    """The model in a file or in the folder of a training, or one that ships with the project, by its name such as
+    "humans-madd3".
+
+    A training's folder has a model from its first validation on, and a better one from time to time.
 
     Raises ParameterError for a name that is neither, ShapeFileError for a file that holds no model.
     """
     path = Path(model)
+    if path.is_dir() and (path / RUN_MODEL).is_file():
+        path = path / RUN_MODEL
     if not path.is_file():
         path = _shipped(str(model))
     try:
@@ -124,7 +206,9 @@ def load_model(model: str | Path) -> Model:
 def _shipped(name: str) -> Path:
     if name not in shipped_models():
         known = ", ".join(shipped_models()) or "none"
-        raise ParameterError(f"model must be a file or a shipped model ({known}), but it is {name!r}.")
+        raise ParameterError(
+            f"model must be a file, the folder of a training or a shipped model ({known}), but it is {name!r}."
+        )
     return asset("models", f"{name}.safetensors")
 
 
@@ -135,4 +219,7 @@ def _assembled(about: dict[str, Any], tensors: dict[str, torch.Tensor]) -> Model
         {name.removeprefix("network."): value for name, value in tensors.items() if name.startswith("network.")}
     )
     moments = Moments(tensors["input.mean"].numpy(), tensors["input.deviation"].numpy())
-    return Model(network, InputRecipe(**recipe), moments, about["standardisation"], about["card"])
+    reference = None
+    if "reference.vertices" in tensors:
+        reference = TriangleMesh(tensors["reference.vertices"].numpy(), tensors["reference.faces"].numpy(), "reference")
+    return Model(network, InputRecipe(**recipe), moments, about["standardisation"], about["card"], reference)

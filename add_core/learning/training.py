@@ -15,11 +15,12 @@ import torch
 
 from .._check import IntArray
 from ..errors import Cancelled, ConvergenceError, ParameterError
-from .architectures import Architecture, Network, build
+from ..geometry import TriangleMesh
+from .architectures import Architecture, Network, build, take_over
 from .averaging import AveragedWeights
 from .checkpoints import Checkpoint
 from .inputs import InputRecipe, Moments
-from .model import Model
+from .model import RUN_MODEL, Model
 from .objective import Objective
 from .pairs import PairSampler
 from .settings import TrainingSettings, learning_rate
@@ -28,7 +29,7 @@ from .validation import Validator
 
 Report = Callable[[dict[str, Any]], object]
 
-CHECKPOINT, MODEL = "checkpoint.pt", "model.safetensors"
+CHECKPOINT, MODEL = "checkpoint.pt", RUN_MODEL
 
 
 def fit(
@@ -40,6 +41,8 @@ def fit(
     settings: TrainingSettings | None = None,
     validation: Sequence[PreparedShape] = (),
     symmetry: IntArray | None = None,
+    reference: TriangleMesh | None = None,
+    start: Network | None = None,
     report: Report | None = None,
     card: dict[str, Any] | None = None,
 ) -> Model:
@@ -47,6 +50,7 @@ def fit(
 
     A folder that holds a checkpoint of the same training is gone on with, to the same weights, bit for bit, as without
     the interruption. symmetry : (P,), the place that mirrors each place, whose pairs become negatives.
+    reference, card : of the model. start : a network whose layers are taken over, see `take_over`.
     report : called with a dictionary for each event ("step", "validation", "done"); returning False stops the training
         after a checkpoint and raises Cancelled.
 
@@ -56,48 +60,53 @@ def fit(
     Raises ParameterError for sets or settings that do not fit, ConvergenceError if the loss stops being a number.
     """
     chosen = settings or TrainingSettings()
-    place = Path(folder)
-    place.mkdir(parents=True, exist_ok=True)
+    network = build(architecture, seed=chosen.seed)
+    if start is not None:
+        take_over(network, start)
+    _check_classes(network, chosen, shapes)
+    pooled = Moments.pooled([shape.moments for shape in shapes])
+    moments = pooled if chosen.standardisation == "set" else None
+    about = [asdict(architecture), asdict(recipe), asdict(chosen)]
+    about.append({"data": _fingerprint([*shapes, *validation], symmetry, network)})
     run = _Run(
-        architecture, recipe, shapes, chosen, validation, symmetry, place, report or (lambda event: None), card or {}
+        network,
+        chosen,
+        sampler=_sampler(shapes, recipe, chosen, symmetry, moments),
+        validator=Validator(validation, symmetry=symmetry, moments=moments) if validation else None,
+        model=lambda trained, facts: Model(
+            trained, recipe, pooled, chosen.standardisation, facts | (card or {}), reference
+        ),
+        about=json.dumps(about),
+        folder=Path(folder),
+        report=report or (lambda event: None),
     )
     run.go_on()
     return run.finish()
 
 
 class _Run:
-    """One training in one folder."""
+    """One training in one folder. model : makes one of a network and facts about its training."""
 
     def __init__(
         self,
-        architecture: Architecture,
-        recipe: InputRecipe,
-        shapes: Sequence[PreparedShape],
+        network: Network,
         settings: TrainingSettings,
-        validation: Sequence[PreparedShape],
-        symmetry: IntArray | None,
+        *,
+        sampler: PairSampler,
+        validator: Validator | None,
+        model: Callable[[Network, dict[str, Any]], Model],
+        about: str,
         folder: Path,
         report: Report,
-        card: dict[str, Any],
     ) -> None:
-        self.settings, self.recipe, self.folder, self.report = settings, recipe, folder, report
-        self.card = card
-        self.network = build(architecture, seed=settings.seed).to(settings.device)
+        self.settings, self.sampler, self.validator, self.model = settings, sampler, validator, model
+        self.folder, self.report = folder, report
+        folder.mkdir(parents=True, exist_ok=True)
+        self.network = network.to(settings.device)
         self.average = AveragedWeights(self.network, settings.averaging)
         self.objective = Objective(settings)
-        _check_classes(self.network, settings, shapes)
-        self.pooled = Moments.pooled([shape.moments for shape in shapes])
-        moments = self.pooled if settings.standardisation == "set" else None
-        images: list[PreparedShape] = []
-        if settings.reflections and symmetry is not None:
-            images = [shape.reflected(symmetry, recipe.mirror_channels) for shape in shapes]
-        self.sampler = PairSampler(
-            [*shapes, *images], pairs=settings.pairs, seed=settings.seed, symmetry=symmetry, moments=moments
-        )
-        self.validator = Validator(validation, symmetry=symmetry, moments=moments) if validation else None
         self.optimizer = _optimizer(self.network, settings)
-        about = [asdict(architecture), asdict(recipe), asdict(settings), _fingerprint([*shapes, *validation], symmetry)]
-        self.state = Checkpoint(json.dumps(about), 0, {}, {})
+        self.state = Checkpoint(about, 0, {}, {})
         self._resume()
 
     def _resume(self) -> None:
@@ -149,8 +158,7 @@ class _Run:
     def _publish(self, network: Network, step: int) -> Model:
         """Write a model of the weights that `network` had at `step`."""
         facts = {"step": step, "steps": self.state.step, "settings": asdict(self.settings)}
-        facts |= {"history": self.state.history, **self.card}
-        model = Model(network.cpu(), self.recipe, self.pooled, self.settings.standardisation, facts)
+        model = self.model(network.cpu(), facts | {"history": list(self.state.history)})
         model.save(self.folder / MODEL)
         network.to(self.settings.device)
         return model
@@ -195,6 +203,19 @@ class _Run:
         saved.save(self.folder / CHECKPOINT)
 
 
+def _sampler(
+    shapes: Sequence[PreparedShape],
+    recipe: InputRecipe,
+    settings: TrainingSettings,
+    symmetry: IntArray | None,
+    moments: Moments | None,
+) -> PairSampler:
+    images: list[PreparedShape] = []
+    if settings.reflections and symmetry is not None:
+        images = [shape.reflected(symmetry, recipe.mirror_channels) for shape in shapes]
+    return PairSampler([*shapes, *images], pairs=settings.pairs, seed=settings.seed, symmetry=symmetry, moments=moments)
+
+
 def _optimizer(network: Network, settings: TrainingSettings) -> torch.optim.Optimizer:
     rate = learning_rate(settings, 0)
     if settings.optimizer == "adadelta":
@@ -213,10 +234,13 @@ def _check_classes(network: Network, settings: TrainingSettings, shapes: Sequenc
         raise ParameterError(f"reference_size must be above {most}, the highest place, but it is {network.outputs}.")
 
 
-def _fingerprint(shapes: Sequence[PreparedShape], symmetry: IntArray | None) -> str:
+def _fingerprint(shapes: Sequence[PreparedShape], symmetry: IntArray | None, network: Network) -> str:
+    """A hash of what is learned from and where learning starts."""
     digest = blake2b(digest_size=12)
     for shape in shapes:
         for array in (shape.moments.mean, shape.moments.deviation, shape.places):
             digest.update(np.ascontiguousarray(array).tobytes())
     digest.update(b"none" if symmetry is None else np.ascontiguousarray(symmetry).tobytes())
+    for weights in network.state_dict().values():
+        digest.update(weights.numpy().tobytes())
     return digest.hexdigest()

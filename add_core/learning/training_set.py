@@ -72,6 +72,10 @@ class PreparedShape:
         places = np.where(known, np.asarray(symmetry)[np.where(known, self.places, 0)], UNKNOWN)
         return replace(self, places=read_only(places), channels=channels)
 
+    def below(self, count: int) -> PreparedShape:
+        """The same shape with the places from `count` on unknown."""
+        return replace(self, places=read_only(np.where(self.places < count, self.places, UNKNOWN)))
+
     def inputs(self, vertices: IntArray, moments: Moments | None = None) -> Inputs:
         """Standardised inputs, shape (B, C, M), of vertices (B,), by `moments` or the shape's own."""
         order = np.argsort(vertices)  # the file is read forwards

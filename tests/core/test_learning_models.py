@@ -104,6 +104,14 @@ def test_a_model_is_the_same_after_a_visit_to_a_file(model, mesh, tmp_path):
     assert [path.name for path in tmp_path.iterdir()] == ["my.safetensors"]
 
 
+def test_weights_kept_in_half_precision_take_half_the_room_and_describe_alike(model, mesh, tmp_path):
+    for precision in ("float32", "float16"):
+        model.save(tmp_path / precision, precision=precision)
+    whole, half = (load_model(tmp_path / precision) for precision in ("float32", "float16"))
+    assert (tmp_path / "float16").stat().st_size < 0.6 * (tmp_path / "float32").stat().st_size
+    assert_allclose(describe(half, mesh), describe(whole, mesh), atol=5e-3 * np.abs(describe(whole, mesh)).max())
+
+
 def test_standardising_by_the_set_uses_its_moments(model, mesh):
     other = Model(model.network, RECIPE, model.moments, "set")
     values = RECIPE.inputs(RECIPE.spectra(mesh, workers=1, cache=False))
@@ -117,7 +125,7 @@ def test_files_that_hold_no_model_are_explained(tmp_path):
     for name in ("noise", "other.safetensors"):
         with pytest.raises(ShapeFileError, match=name):
             load_model(tmp_path / name)
-    with pytest.raises(ParameterError, match="must be a file or a shipped model"):
+    with pytest.raises(ParameterError, match="must be a file, the folder of a training or a shipped model"):
         load_model("cats-madd3")
 
 

@@ -16,7 +16,7 @@ from add_core.errors import Cancelled, ConvergenceError, ParameterError, ShapeFi
 from add_core.geometry import TriangleMesh
 from add_core.geometry.shapes import ellipsoid
 from add_core.learning import InputRecipe, LearningTask, TrainingSettings, TrainingShape, load_model, train
-from add_core.learning.architectures import Architecture, build
+from add_core.learning.architectures import Architecture, build, take_over
 from add_core.learning.averaging import AveragedWeights
 from add_core.learning.inputs import Moments
 from add_core.learning.objective import negative_pairs
@@ -158,6 +158,43 @@ def test_a_classifier_learns_the_reference_shape(shapes, tmp_path):
     probabilities = model.describe_inputs(np.asarray(shapes[0].values, np.float32), shapes[0].mass)
     assert_allclose(probabilities.sum(axis=1), 1, rtol=1e-5)
     assert (probabilities.argmax(axis=1) == np.arange(162)).mean() > 0.8
+
+
+def test_a_correspondence_network_names_vertices_of_its_reference(tmp_path):
+    """Trained by heart on two bodies, it finds their vertices again, from the file too, and places beyond the reference
+    are nothing to it."""
+    bodies = [body(0), body(1)]
+    places = np.concatenate([bodies[1].places[:-5], 162 + np.arange(5)])
+    task = LearningTask([bodies[0], TrainingShape(bodies[1].shape, places)], reference=bodies[0].shape)
+    layers = "ASF16 ReLU SC FC32 ReLU FCreference Softmax"
+    settings = TrainingSettings(loss="multinomial", steps=200, pairs=64, noise=0.0, learning_rate=1e-2)
+    train(task, tmp_path, architecture="mADD4", layers=layers, recipe=RECIPE, settings=settings, workers=1)
+    model = load_model(tmp_path)
+    assert_allclose(model.reference.vertices, bodies[0].shape.vertices, rtol=1e-6)
+    matches = model.match(bodies[0].shape, workers=1, cache=False)
+    assert (matches.vertices == np.arange(162)).mean() > 0.8
+    probabilities = model.describe(bodies[0].shape, workers=1, cache=False)
+    assert_array_equal(probabilities.argmax(axis=1), matches.vertices)
+    assert_allclose(probabilities.max(axis=1), matches.probabilities)
+    embedded = model.embed(bodies[0].shape, workers=1, cache=False)
+    assert_array_equal(embedded, model.reference.vertices[matches.vertices])
+
+
+def test_a_network_that_gives_descriptors_names_no_vertices(shapes, tmp_path):
+    model = fit(SMALL, RECIPE, shapes[:2], tmp_path, settings=replace(QUICK, steps=2))
+    with pytest.raises(ParameterError, match=r"must end in Softmax.*add-core match"):
+        model.match(body(0).shape)
+
+
+def test_training_starts_from_the_layers_of_another_network(shapes, tmp_path):
+    first = fit(SMALL, RECIPE, shapes[:2], tmp_path / "first", settings=QUICK).network
+    larger = Architecture("larger", "ASF16 ReLU SC FC32 ReLU FC7", channels=3, splines=12)
+    network = build(larger, seed=5)
+    assert take_over(network, first) == 5
+    assert_array_equal(network.layers[0].weight.detach(), first.layers[0].weight.detach())
+    still = replace(QUICK, steps=1, learning_rate=1e-12, averaging=0.0)
+    after = fit(larger, RECIPE, shapes[:2], tmp_path / "second", settings=still, start=first).network
+    assert_allclose(after.layers[3].weight.detach(), first.layers[3].weight.detach(), atol=1e-9)
 
 
 def run(folder, shapes, settings=QUICK, **options):
