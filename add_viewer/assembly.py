@@ -53,7 +53,7 @@ CURVE_PAUSE = 180
 PICTURE_DEADLINE = 120_000
 """Milliseconds after which a picture that is not ready is given up."""
 
-_TITLES = {"humans": "People", "poses": "Poses", "dogs": "Dogs"}
+_TITLES = {"humans": "People", "poses": "Poses", "dogs": "Dogs", "remeshed": "Remeshed", "clouds": "Point clouds"}
 
 
 def application() -> QApplication:

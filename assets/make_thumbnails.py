@@ -1,7 +1,8 @@
-"""Draw the start page's pictures of the shipped shapes: xvfb-run -a python assets/make_thumbnails.py"""
+"""Draw the start page's pictures of the shipped shapes: xvfb-run -a python assets/make_thumbnails.py [COLLECTION…]"""
 
 from __future__ import annotations
 
+import sys
 from pathlib import Path
 
 from PIL import Image
@@ -27,8 +28,8 @@ def main() -> None:
     window.resize(2 * WIDTH, 2 * HEIGHT)
     window.show()
     FOLDER.mkdir(exist_ok=True)
-    for name, collection in SHIPPED.items():
-        shapes = collection()
+    for name in sys.argv[1:] or SHIPPED:
+        shapes = SHIPPED[name]()
         sheet = Image.new("RGBA", (COLUMNS * WIDTH, -(-len(shapes) // COLUMNS) * HEIGHT))
         for index in range(len(shapes)):
             opened = OpenShape(key=name, reference=name, name=name, shape=shapes[index], diameter=1.0)

@@ -7,16 +7,15 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.spatial import KDTree
 
-from .._assets import asset
 from .._check import FloatArray, IntArray, one_of
 from ..errors import ParameterError
 from ..geometry import PointCloud, TriangleMesh, subsample
 from ..geometry.closest import closest_points
 from ..io import Collection, humans
+from ..io.shipped_variants import CLOUD_POINTS, remeshed_people, remeshed_person
 from .truth import SurfacePoints
 
 VARIANTS = ("mesh", "remeshed", "cloud")
-CLOUD_POINTS = 4000
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,7 +51,7 @@ def sample(collection: Collection, index: int, variant: str = "mesh") -> Sample:
         part = subsample(original, min(CLOUD_POINTS, original.vertex_count), start=(97 * index) % original.vertex_count)
         shape, place = part.cloud, at_vertices(part.indices)
     if variant == "remeshed":
-        shape, place = _remeshed(collection, index, original)
+        shape, place = _remeshed(collection, index)
     symmetry = collection.symmetry
     mirror = None if symmetry is None else _counterparts(symmetry[place.corners], place.weights, original, shape)
     return Sample(f"{collection.names[index]}", shape, original, place, mirror)
@@ -90,19 +89,8 @@ def _counterparts(
     return np.asarray(KDTree(shape.vertices).query(places)[1], dtype=np.int64)
 
 
-def _remeshed(collection: Collection, index: int, original: TriangleMesh) -> tuple[TriangleMesh, SurfacePoints]:
-    with np.load(asset("shapes", "humans_remeshed_20.npz"), allow_pickle=False) as file:
-        listed = file["shapes"].tolist()
-        if collection.title != humans().title or index not in listed:
-            raise ParameterError(f"{collection.names[index]} does not ship remeshed; only the test people do.")
-        position = listed.index(index)
-        ends = np.cumsum(file["counts"], axis=0)
-        (points, faces), count = ends[position] - file["counts"][position], file["counts"][position]
-        rows = slice(points, points + count[0])
-        vertices = file["lo"] + float(file["scale"]) * file["vertices_q"][rows]
-        triangles = file["faces"][faces : faces + count[1]].astype(np.int64)
-        face = file["place_face"][rows].astype(np.int64)
-        two = file["place_weights"][rows].astype(np.float64) / 65535
-    last = np.maximum(1.0 - two.sum(axis=1, keepdims=True), 0.0)
-    mesh = TriangleMesh(vertices, triangles, name=collection.names[index] + ", remeshed")
-    return mesh, SurfacePoints(original.faces[face], np.concatenate([two, last], axis=1))
+def _remeshed(collection: Collection, index: int) -> tuple[TriangleMesh, SurfacePoints]:
+    if collection.title != humans().title or index not in remeshed_people():
+        raise ParameterError(f"{collection.names[index]} does not ship remeshed; only the test people do.")
+    person = remeshed_person(remeshed_people().index(index))
+    return person.mesh, SurfacePoints(person.corners, person.weights)

@@ -6,7 +6,9 @@ from .files import LoadedShape, load_fields, load_shape, load_shape_and_fields, 
 from .folders import open_collection
 from .formats import extensions
 from .models import shipped_models
-from .shipped import SHIPPED, ShippedPlace, dogs, humans, poses, shipped_place
+from .shipped import dogs, humans, poses
+from .shipped_places import SHIPPED, ShippedPlace, shipped_place
+from .shipped_variants import clouds, remeshed
 
 __all__ = [
     "SHIPPED",
@@ -14,6 +16,7 @@ __all__ = [
     "Landmarks",
     "LoadedShape",
     "ShippedPlace",
+    "clouds",
     "dogs",
     "extensions",
     "humans",
@@ -22,6 +25,7 @@ __all__ = [
     "load_shape_and_fields",
     "open_collection",
     "poses",
+    "remeshed",
     "save_arrays",
     "save_shape",
     "shipped_models",

@@ -39,6 +39,7 @@ class Collection:
     unit : length unit of the vertices, "" if unknown.
     up, front : the axes that point up and that the shapes look along, e.g. "+z" and "-y"; "" if unknown.
     licence : under which terms the shapes may be used, in a few words.
+    template : title of the collection whose vertices are the places of the landmarks, "" for places of their own.
     make_shape : gives the shape of an index. landmarks : gives those of an index, None if the shapes share their faces.
     """
 
@@ -52,6 +53,7 @@ class Collection:
     up: str = ""
     front: str = ""
     licence: str = ""
+    template: str = ""
     make_shape: Callable[[int], Shape] = field(repr=False)
     landmarks: Callable[[int], Landmarks] | None = field(default=None, repr=False)
 

@@ -6,8 +6,6 @@ says how they were made and under which licences.
 
 from __future__ import annotations
 
-import re
-from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache, cached_property
 
@@ -16,7 +14,6 @@ from numpy.typing import NDArray
 
 from .._assets import asset
 from .._check import FloatArray, IntArray, read_only
-from ..errors import ShapeFileError
 from ..geometry import TriangleMesh
 from .collection import Collection
 
@@ -90,38 +87,6 @@ def dogs() -> Collection:
         licence="Apache-2.0 (dm_control)",
         make_shape=lambda index: stored.mesh(index, names[index]),
     )
-
-
-SHIPPED: dict[str, Callable[[], Collection]] = {"humans": humans, "poses": poses, "dogs": dogs}
-"""The shipped collections by name."""
-
-
-@dataclass(frozen=True, eq=False)
-class ShippedPlace:
-    """A place in a shipped collection. name : how to write it, e.g. "humans/3"."""
-
-    collection: Collection
-    index: int
-
-    @property
-    def name(self) -> str:
-        return f"{self.collection.title}/{self.index}"
-
-
-def shipped_place(name: str) -> ShippedPlace | None:
-    """The place that "humans/3" (or "humans:3") names; None if `name` is not of that form.
-
-    Raises ShapeFileError if the collection has no such shape.
-    """
-    written = re.fullmatch(rf"({'|'.join(SHIPPED)})[/:](\d+)", name)
-    if written is None:
-        return None
-    place = ShippedPlace(SHIPPED[written[1]](), int(written[2]))
-    last = len(place.collection) - 1
-    if place.index > last:
-        title = place.collection.title
-        raise ShapeFileError(f"{title} holds shapes {title}/0 to {title}/{last}, but {name} was asked for.")
-    return place
 
 
 @dataclass(frozen=True, eq=False)

@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import lru_cache
 
 import numpy as np
+from scipy.spatial import KDTree
 
 from add_core.geometry import TriangleMesh
+from add_core.io import SHIPPED
 
 from ..models.picks import Pick
 from ..models.results import FloatArray, IntArray, Results
@@ -42,16 +45,27 @@ def carried_picks(state: SessionState, maps: dict[tuple[str, str], IntArray]) ->
     return found
 
 
+@lru_cache(maxsize=32)
 def true_match(source: OpenShape, target: OpenShape) -> IntArray | None:
-    """(n_target,): the source vertex of each target vertex where two meshes share their faces; None for others.
+    """(n_target,): the source vertex at the place of each target vertex, the nearest where none is at that very place.
 
-    Points of clouds correspond by number only if somebody says so, which no file does.
+    Known between shapes that share a template, and between meshes that share their faces; None for others.
     """
+    if source.template and source.template == target.template:
+        return _match_of_places(source, target)
     one, two = source.shape, target.shape
     if not (isinstance(one, TriangleMesh) and isinstance(two, TriangleMesh)) or one.vertex_count != two.vertex_count:
         return None
     same = one.faces is two.faces or np.array_equal(one.faces, two.faces)
     return np.arange(one.vertex_count, dtype=np.int64) if same else None
+
+
+def _match_of_places(source: OpenShape, target: OpenShape) -> IntArray:
+    places = np.arange(target.vertex_count, dtype=np.int64) if target.places is None else target.places
+    if source.places is None:
+        return places
+    template = SHIPPED[source.template]()[0].vertices  # in a neutral pose, where near means near on the skin
+    return np.asarray(KDTree(template[source.places]).query(template[places])[1], dtype=np.int64)
 
 
 def carried_vertex(vertex: int, vertices: FloatArray, match: IntArray) -> int:

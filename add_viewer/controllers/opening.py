@@ -83,7 +83,15 @@ def _read_shipped(place: ShippedPlace) -> OpenShape:
         reference=place.name,
         name=_capital(collection.names[place.index]),
     )
-    return replace(opened, unit=collection.unit, symmetry=collection.symmetry, up=collection.up, front=collection.front)
+    return replace(
+        opened,
+        unit=collection.unit,
+        symmetry=collection.symmetry,
+        template=collection.template or collection.title,
+        places=None if collection.landmarks is None else collection.landmarks(place.index).places,
+        up=collection.up,
+        front=collection.front,
+    )
 
 
 def _open_shape(shape: Shape, *, key: str, reference: str, name: str) -> OpenShape:

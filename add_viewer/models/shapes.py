@@ -26,6 +26,8 @@ class OpenShape:
     unit : the file's own length unit, "" if unknown.
     symmetry : (n,) the mirror of every vertex, or None. symmetry_confidence : 0 to 1 where the shape itself was
         asked for it, None where it is known.
+    template : the shipped collection whose vertices are places that shapes share, "" if nothing of that kind is known.
+    places : (n,) the place of every vertex; None where vertex i is place i.
     fields : per-vertex quantities that came with the file, each (n,) or (n, k).
     up, front : axes such as "+z" and "-y"; "" if unknown.
     """
@@ -38,6 +40,8 @@ class OpenShape:
     unit: str = ""
     symmetry: IntArray | None = None
     symmetry_confidence: float | None = None
+    template: str = ""
+    places: IntArray | None = None
     fields: Mapping[str, FloatArray] = field(default_factory=dict)
     up: str = ""
     front: str = ""

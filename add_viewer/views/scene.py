@@ -71,6 +71,7 @@ class SceneView(QWidget):
             self._grid.addWidget(view, place // wide, place % wide)
             view.show()
             view.show_as_source(len(state.shown) > 1 and view.key == state.active_key)
+            view.leave_right(self._tools.width() + GRID if place == min(wide, len(wanted)) - 1 else 0)
         for line in range(max(self._grid.columnCount(), self._grid.rowCount())):
             self._grid.setColumnStretch(line, int(line < wide))
             self._grid.setRowStretch(line, int(line < -(-len(wanted) // wide)))

@@ -54,7 +54,7 @@ class ShapeList(QListWidget):
                 if active:
                     self.setCurrentItem(item)
         rows = min(max(len(state.shapes), 1), _MOST_ROWS)
-        self.setFixedHeight(rows * (3 * GRID + 2) + GRID)
+        self.setFixedHeight(rows * max(self.sizeHintForRow(0), 2 * GRID) + 4)
         self._showing = False
 
     def _fit(self, keys: list[str]) -> None:

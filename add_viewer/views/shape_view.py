@@ -41,6 +41,7 @@ class ShapeView(QWidget):
         self.panel = 0
         self._shown: OpenShape | None = None
         self._theme = LIGHT
+        self._room_right = 0
         self.canvas = Canvas(self)
         layout = QVBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
@@ -190,6 +191,11 @@ class ShapeView(QWidget):
         for overlay in self._overlays:
             overlay.show_theme(theme)
 
+    def leave_right(self, pixels: int) -> None:
+        """Keep so much room free beside the name, for buttons in the upper right corner."""
+        self._room_right = pixels
+        self._place_labels()
+
     def show_as_source(self, on: bool) -> None:
         """Mark the view of the active shape among several."""
         self.label.show_source(on)
@@ -216,12 +222,15 @@ class ShapeView(QWidget):
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         super().resizeEvent(event)
+        self._place_labels()
+
+    def _place_labels(self) -> None:
         width, height, gap = self.width(), self.height(), 2 * GRID
         small = width < _SMALL.width() or height < _SMALL.height()
         self.colour_bar.show_small(small, width - 2 * gap)
         self.label.show_small(small)
         self.canvas.leave_below(self.colour_bar.height() if small else 0)
-        self.label.setFixedWidth(max(40, min(400, width - 2 * gap)))
+        self.label.setFixedWidth(max(40, min(400, width - 2 * gap - self._room_right)))
         self.triad.setVisible(not small)
         self.label.move(gap, gap)
         self.triad.move(gap - 4, height - self.triad.height() - gap + 4)

@@ -48,7 +48,7 @@ QToolTip { background: $panel; color: $text; border: 1px solid $line; padding: 4
 QLabel[role="muted"] { color: $muted; }
 QLabel[role="heading"] { font-weight: 600; }
 QLabel[role="key"] { color: $text; background: $field; border: 1px solid $line; border-radius: 4px; padding: 1px 6px; }
-ShapeList::item { padding: 3px 4px; border-radius: 4px; color: $text; }
+ShapeList::item { padding: 4px 4px; border: 1px solid transparent; border-radius: 4px; color: $text; }
 ShapeList::item:hover { background: $field; }
 ShapeList::item:selected { background: $field; border: 1px solid $line; color: $text; }
 ShapeList::indicator { width: 11px; height: 11px; border: 1px solid $muted; border-radius: 3px; background: $field; }

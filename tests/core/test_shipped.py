@@ -6,7 +6,7 @@ from numpy.testing import assert_allclose, assert_array_equal
 
 from add_core.errors import ParameterError
 from add_core.geometry import inspect
-from add_core.io import dogs, humans, poses
+from add_core.io import clouds, dogs, humans, poses, remeshed
 
 COLLECTIONS = {"humans": (humans, 100, 6890), "poses": (poses, 71, 12166), "dogs": (dogs, 40, 6890)}
 
@@ -107,3 +107,19 @@ def test_there_is_no_shape_beyond_the_last():
     with pytest.raises(IndexError, match="humans has shapes 0 to 99, but 100 was asked for"):
         humans()[100]
     assert sum(1 for _ in dogs()) == 40
+
+
+@pytest.mark.parametrize("make", [remeshed, clouds])
+def test_variants_of_the_test_people_lie_on_them(make):
+    collection = make()
+    assert len(collection) == 20 == len(set(collection.names))
+    assert collection.template == "humans"
+    assert collection.split("test").tolist() == list(range(20))
+    for index in (0, 13):
+        shape, landmarks = collection[index], collection.landmarks(index)
+        original = humans()[humans().names.index(collection.names[index].rpartition(", ")[0])]
+        gap = np.linalg.norm(original.vertices[landmarks.places] - shape.vertices, axis=1)
+        assert gap.max() < 0.04  # metres: places are the nearest vertices
+    match = collection.correspondence(0, 13)
+    assert match.shape == (collection[0].vertex_count,)
+    assert (match >= 0).mean() > 0.3

@@ -6,7 +6,7 @@ import numpy as np
 import pyvista as pv
 from numpy.typing import NDArray
 from PySide6.QtCore import QPointF
-from PySide6.QtGui import QImage
+from PySide6.QtGui import QImage, QResizeEvent
 
 from ...models.fields import ShapeField
 from ...models.picks import Pick
@@ -17,7 +17,7 @@ from .marks import Needles, best_actors, marker_actors
 from .orbit_view import OrbitView
 from .picker import POINT_REACH, CloudPicker
 from .picture import take_picture
-from .surface import Surface
+from .surface import USUAL_HEIGHT, Surface
 
 FloatArray = NDArray[np.float64]
 
@@ -31,6 +31,7 @@ class Canvas(OrbitView):
         self._needles: Needles | None = None
         self._marks: list[pv.Actor] = []
         self._best: list[pv.Actor] = []
+        self._point_size = 1.0
         _add_lights(self)
         self.show_theme(LIGHT)
 
@@ -100,10 +101,15 @@ class Canvas(OrbitView):
             self.update()
 
     def show_point_size(self, factor: float) -> None:
-        """Draw the discs of a cloud larger or smaller."""
+        """Draw the discs of a cloud `factor` times as large as they need to be to touch each other."""
+        self._point_size = factor
         if self._body is not None:
-            self._body.show_point_size(factor)
+            self._body.show_point_size(factor * self.height() / USUAL_HEIGHT)
             self.update()
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        super().resizeEvent(event)
+        self.show_point_size(self._point_size)
 
     def show_theme(self, theme: Theme) -> None:
         """Soft background, a little lighter at the top."""

@@ -16,6 +16,8 @@ from .picker import CloudPicker, MeshPicker
 
 FloatArray = NDArray[np.float64]
 _FIELD, _COLOURS = "field", "colours"
+USUAL_HEIGHT = 700.0
+"""Of a view, in pixels."""
 
 
 class Surface:
@@ -114,5 +116,5 @@ def _lookup_table(tones: Tones) -> vtkLookupTable:
 
 
 def _point_size(shape: Shape) -> float:
-    """Neighbouring discs touch on a picture some 700 pixels high."""
-    return float(np.clip(700.0 / np.sqrt(shape.vertex_count) * 0.9, 2.0, 14.0))
+    """Neighbouring discs touch on a picture of the usual height."""
+    return float(np.clip(0.9 * USUAL_HEIGHT / np.sqrt(shape.vertex_count), 2.0, 14.0))

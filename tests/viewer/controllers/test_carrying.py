@@ -7,6 +7,7 @@ import pytest
 
 from add_core.geometry import TriangleMesh
 from add_viewer.controllers.carrying import CarryingController, carried_vertex, true_match
+from add_viewer.controllers.opening import read_shape
 from add_viewer.models.results import Results
 from add_viewer.models.session import Session
 
@@ -50,6 +51,16 @@ def test_a_vertex_that_nothing_matches_goes_where_its_nearest_neighbour_goes():
     vertices = np.array([[0.0, 0, 0], [1, 0, 0], [2, 0, 0]])
     assert carried_vertex(1, vertices, np.array([2, 0, -1, 0])) in (0, 1)
     assert carried_vertex(2, vertices, np.array([0, 0, -1, 1])) == 3
+
+
+def test_shipped_people_correspond_whatever_their_meshing():
+    person, other, cloud = (read_shape(name) for name in ("humans/0", "remeshed/0", "clouds/11"))
+    assert true_match(person, cloud).tolist() == cloud.places.tolist()
+    assert true_match(cloud, other).shape == (other.vertex_count,)
+    back = cloud.places[true_match(cloud, person)]
+    neutral = person.shape.vertices
+    assert np.linalg.norm(neutral[back] - neutral, axis=1).max() < 0.03  # of the geodesic diameter
+    assert true_match(person, read_shape("dogs/0")) is None
 
 
 def test_clouds_correspond_only_if_somebody_says_so(torus):

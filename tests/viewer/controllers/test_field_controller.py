@@ -14,6 +14,7 @@ from add_viewer.controllers.fields_of_heat import blended
 from add_viewer.controllers.kernel import KernelController
 from add_viewer.controllers.matching import MatchingController
 from add_viewer.controllers.operators import OperatorStore
+from add_viewer.models.display import Display
 from add_viewer.models.fields import FieldChoice
 from add_viewer.models.jobs import Jobs
 from add_viewer.models.results import Results
@@ -29,7 +30,7 @@ class World:
         self.core = Core(self.jobs)
         answers, operators = Answers(self.jobs, run), OperatorStore()
         store = DescriptorStore(answers, lambda: (), lambda: ())
-        self.kernel = KernelController(self.session, self.results, run, operators)
+        self.kernel = KernelController(self.session, self.results, Display(), run, operators)
         self.matching = MatchingController(self.session, self.results, answers)
         self.sources = Sources(self.results, answers, store, operators, self.matching)
         self.fields = FieldController(self.session, self.sources, run)
