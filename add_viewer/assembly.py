@@ -26,13 +26,16 @@ from .controllers.kernel import KernelController
 from .controllers.opening import OpeningController, Read, read_shape
 from .controllers.operators import OperatorStore
 from .controllers.running import explain
+from .controllers.training import TrainingController
 from .models.display import Display
 from .models.jobs import Jobs
 from .models.results import Results
 from .models.session import Session
 from .models.session_file import ENDING
 from .models.shapes import OpenShape
+from .models.training import TrainingRequest
 from .tasks.delay import Delay
+from .tasks.disposal import dispose
 from .tasks.identity import ProcessIdentity
 from .tasks.processes import ProcessRunner
 from .tasks.worker import Worker
@@ -145,11 +148,19 @@ class Assembly:
 
     def _run_jobs(self, *, restore: bool) -> None:
         self.jobs = Jobs(default_home())
-        self.job_control = JobsController(self.jobs, ProcessRunner(), self.results.report)
-        self.background = BackgroundViews(self.window, self.jobs, self.job_control.log)
+        self.job_control = JobsController(self.jobs, ProcessRunner(), self.results.report, dispose=dispose)
+        self.training = TrainingController(self.jobs, dispose, self.results.report)
+        self.background = BackgroundViews(self.window, self.jobs, self.job_control.log, self.training)
+        self.background.training_panel.submitted.connect(self._train)
+        self.background.training_panel.deleted.connect(self.training.delete)
         if restore:
             self.job_control.restore()
             self.background.offer_to_go_on()
+
+    def _train(self, request: TrainingRequest) -> None:
+        id = self.training.start(request)
+        if id is not None:
+            self.background.training_panel.select(id)
 
     def _opened(self, shape: OpenShape) -> None:
         self.window.remember(shape.reference)

@@ -82,7 +82,8 @@ def kept_jobs(home: Path) -> list[KeptJob]:
     """What the folders in `home` hold, oldest first; those that cannot be read are left alone."""
     if not home.is_dir():
         return []
-    found = [_read(folder) for folder in sorted(home.iterdir()) if (folder / JOB_FILE).is_file()]
+    folders = [each for each in sorted(home.iterdir()) if (each / JOB_FILE).is_file() and each.name[0] != "."]
+    found = [_read(folder) for folder in folders]
     return [kept for kept in found if kept is not None]
 
 

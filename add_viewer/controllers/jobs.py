@@ -72,9 +72,12 @@ class JobsController:
         jobs: Jobs,
         processes: Processes,
         report: Callable[[str], None] = lambda text: None,
+        *,
+        dispose: Callable[[Path], object] = forget,
         clock: Callable[[], float] = time.monotonic,
     ) -> None:
-        self._jobs, self._processes, self._report, self._clock = jobs, processes, report, clock
+        self._jobs, self._processes, self._report = jobs, processes, report
+        self._dispose, self._clock = dispose, clock
         self._running: dict[str, _Running] = {}
         verbs = {
             "start": self._enqueue,
@@ -98,7 +101,7 @@ class JobsController:
             elif job.state in ("running", "waiting"):
                 self._put(replace(job, state="interrupted", message=_interruption(job)))
             elif job.state == "done" and job.request.kind in PASSING_KINDS:
-                forget(job.request.folder)
+                self._dispose(job.request.folder)
             else:
                 self._jobs.put(job)
 
@@ -168,8 +171,8 @@ class JobsController:
         if job.request.kind == "train":  # its model is still of use
             self._put(replace(job, hidden=True))
         else:
-            forget(job.request.folder)
             self._jobs.remove(id)
+            self._dispose(job.request.folder)
 
     def _recall(self, id: str) -> None:
         if id in self._running:

@@ -1,4 +1,4 @@
-"""Background work in the window: the list of jobs, and the running one in the status bar."""
+"""Background work in the window: the list of jobs, the running one in the status bar, and trainings."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ from ..models.jobs import Jobs
 from .job_status import JobStatus
 from .jobs_panel import JobsPanel
 from .theme import Theme
+from .training_panel import TrainingPanel, Trainings
 
 if TYPE_CHECKING:
     from .main_window import MainWindow
@@ -20,18 +21,31 @@ if TYPE_CHECKING:
 class BackgroundViews:
     """Puts what shows background work into the window."""
 
-    def __init__(self, window: MainWindow, jobs: Jobs, read_log: Callable[[str], str]) -> None:
-        self._jobs = jobs
+    def __init__(self, window: MainWindow, jobs: Jobs, read_log: Callable[[str], str], trainings: Trainings) -> None:
+        self._jobs, self._window = jobs, window
         self.panel, self.status = JobsPanel(jobs, read_log), JobStatus(jobs)
         self.jobs_dock = window.panels.add_beside(window.curve_dock, "Jobs", self.panel)
+        self.training_panel = TrainingPanel(jobs, trainings)
+        self.training_dock = window.panels.add_beside(window.curve_dock, "Training", self.training_panel)
         window.statusBar().addPermanentWidget(self.status)
         self.status.opened.connect(self.open_jobs)
+        self.training_panel.used.connect(self._use)
         window.menus.on("jobs", self.open_jobs)
+        window.menus.on("train", self.open_training)
         window.add_part(self)
 
     def open_jobs(self) -> None:
         """Bring the list of jobs to the front."""
         _bring_to_front(self.jobs_dock)
+
+    def open_training(self) -> None:
+        """Bring the trainings to the front, with the form if there are none yet."""
+        _bring_to_front(self.training_dock)
+        if self.training_panel.selected is None:
+            self.training_panel.open_form()
+
+    def _use(self, path: str) -> None:
+        self._window.session.choose_field(kind="distance", descriptor=path)
 
     def offer_to_go_on(self) -> None:
         """Show the list if an earlier window left something that can go on."""
@@ -42,6 +56,7 @@ class BackgroundViews:
         """Icons in the theme's colours."""
         self.panel.show_theme(theme)
         self.status.show_theme(theme)
+        self.training_panel.show_theme(theme)
 
 
 def _bring_to_front(dock: QDockWidget) -> None:

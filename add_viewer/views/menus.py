@@ -65,7 +65,10 @@ LOOKS = (
     Entry("right", "Its &right side", "6"),
     Entry("top", "&Top", "7"),
 )
-TOOLS = (Entry("jobs", "&Jobs", "Ctrl+J", "mdi6.format-list-checks", "What runs in the background"),)
+TOOLS = (
+    Entry("train", "&Train a descriptor…", "Ctrl+T", "mdi6.school-outline", "Learn from shapes, in the background"),
+    Entry("jobs", "&Jobs", "Ctrl+J", "mdi6.format-list-checks", "What runs in the background"),
+)
 HELP = (
     Entry("palette", "&Command palette…", "Ctrl+Shift+P", "mdi6.text-search", "Do anything by typing its name"),
     Entry("shortcuts", "&Mouse and keyboard", "F1; ?", "mdi6.keyboard-outline", "What mouse and keys do, on one sheet"),

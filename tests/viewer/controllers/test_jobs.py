@@ -63,7 +63,7 @@ class World:
     def __init__(self, home, window=HERE, alive=()):
         self.jobs, self.complaints, self.now = Jobs(home), [], 0.0
         self.processes = FakeProcesses(window, set(alive))
-        self.controller = JobsController(self.jobs, self.processes, self.complaints.append, lambda: self.now)
+        self.controller = JobsController(self.jobs, self.processes, self.complaints.append, clock=lambda: self.now)
         self.finished = []
         self.jobs.finished.connect(self.finished.append)
 
