@@ -26,6 +26,8 @@ from .controllers.kernel import KernelController
 from .controllers.opening import OpeningController, Read, read_shape
 from .controllers.operators import OperatorStore
 from .controllers.running import explain
+from .controllers.script_fields import WRITERS
+from .controllers.scripting import script_of
 from .controllers.training import TrainingController
 from .models.display import Display
 from .models.jobs import Jobs
@@ -107,6 +109,7 @@ class Assembly:
         self.curves = CurvesController(self.session, self.results, run, self._curve_delay, operators)
         self.window.open_requested.connect(self._open)
         self.saving = Saving(self.window, write_atomically, curves_table, explain)
+        self.saving.write_script = lambda: script_of(self.session.state, self.results.carried, WRITERS)
 
     def _keep(self, read: Read | None, session: Path | None) -> None:
         self._session_path = session

@@ -1,5 +1,6 @@
 """The paper's three protocols, symmetric and asymmetric, and the share of points on the right side."""
 
+from .baselines import describe_with, functional_map_matches, isotropic
 from .cmc import CumulativeMatch, cmc
 from .princeton import PrincetonCurve, match_errors, princeton, princeton_curve, surface_area
 from .report import save_report, table
@@ -17,7 +18,10 @@ __all__ = [
     "SurfacePoints",
     "averaged",
     "cmc",
+    "describe_with",
     "descriptor_scores",
+    "functional_map_matches",
+    "isotropic",
     "match_errors",
     "match_scores",
     "princeton",

@@ -167,7 +167,7 @@ class MainWindow(QMainWindow):
         self.setWindowTitle(TITLE if shape is None else f"{shape.name} — {TITLE}")
         self.message.hide()
         self.parameters.play.setChecked(False)
-        for name in ("close", "screenshot", "go_to", "fit", "play", "front", "back", "left", "right", "top"):
+        for name in ("close", "script", "screenshot", "go_to", "fit", "play", "front", "back", "left", "right", "top"):
             self.menus.actions[name].setEnabled(shape is not None)
         self.hover_label.setText("" if shape is None else IDLE_TEXT)
         self.panels.show(shape is not None and self.pages.currentWidget() is self.scene)

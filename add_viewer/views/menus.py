@@ -55,6 +55,7 @@ EDIT = (
     Entry("", ""),
     Entry("play", "&Play θ", "Space", "mdi6.play", "Turn θ from 0° to 180°"),
     Entry("", ""),
+    Entry("script", "Copy as &script", "Ctrl+Shift+C", "mdi6.language-python", "The Python lines that compute this"),
     Entry("settings", "Se&ttings…", "Ctrl+,", "mdi6.cog-outline", "Colours, edges, what is kept, and resetting it all"),
 )
 LOOKS = (

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 from typing import Protocol
 
 from PySide6.QtGui import QImage
-from PySide6.QtWidgets import QDialog, QMessageBox
+from PySide6.QtWidgets import QApplication, QDialog, QMessageBox
 
 from ..models.results import Notice
 from . import dialogs
@@ -30,7 +31,17 @@ class Saving:
         window.menus.on("curves", self.ask_curves)
         window.menus.on("open", self.ask_open)
         window.start.browse.connect(self.ask_open)
+        window.menus.on("script", self.copy_script)
+        self.write_script: Callable[[], str] = str
         window.menus.on("about", lambda: QMessageBox.about(window, "About", window.about_text))
+
+    def copy_script(self) -> None:
+        """Put the Python lines that compute what is shown on the clipboard."""
+        script = self.write_script()
+        if script:
+            QApplication.clipboard().setText(script)
+            lines = script.count("\n")
+            self._window.statusBar().showMessage(f"Copied {lines} lines of Python; they need add_core alone", 6000)
 
     def ask_open(self) -> None:
         """Let the person choose files and open them."""
