@@ -42,6 +42,7 @@ from .tasks.identity import ProcessIdentity
 from .tasks.processes import ProcessRunner
 from .tasks.worker import Worker
 from .views.background import BackgroundViews
+from .views.figure_export import FigureExport
 from .views.main_window import MainWindow
 from .views.saving import Saving, save_image
 from .views.session_files import Recovery, SessionFiles
@@ -109,6 +110,7 @@ class Assembly:
         self.curves = CurvesController(self.session, self.results, run, self._curve_delay, operators)
         self.window.open_requested.connect(self._open)
         self.saving = Saving(self.window, write_atomically, curves_table, explain)
+        self.figures = FigureExport(self.window, self.saving)
         self.saving.write_script = lambda: script_of(self.session.state, self.results.carried, WRITERS)
 
     def _keep(self, read: Read | None, session: Path | None) -> None:

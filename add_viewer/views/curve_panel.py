@@ -156,17 +156,21 @@ class CurvePanel(QWidget):
         shown = self.canvas.get_width_height()
         width, height = max(shown[0], 640), max(shown[1], 200) + 40
         figure = Figure(figsize=(width / 100, height / 100), dpi=100)
+        self.draw_into(figure, 0.72 * width, 0.72 * height, theme)
+        figure.savefig(path, dpi=300, format=path.suffix.lstrip(".").lower())
+
+    def draw_into(self, figure: Any, width: float, height: float, theme: Theme) -> None:
+        """Draw plots and caption into a figure, or a part of one, of this size in points."""
         plots = CurvePlots(figure)
-        plots.lay_out(0.72 * width, 0.72 * height, below=32.0)
+        plots.lay_out(width, height, below=32.0)
         scene = self.scene(theme)
         plots.draw_static(scene)
         for axes, artist in plots.moving_artists(scene):
             artist.set_animated(False)
             axes.add_artist(artist)
         for line, text in enumerate((LEGEND, self._caption())):
-            figure.text(0.02, (8 + 12 * line) / (0.72 * height), text, fontsize=7, color=theme.muted)
+            figure.text(0.02, (8 + 12 * line) / height, text, fontsize=7, color=theme.muted)
         figure.set_facecolor("white")
-        figure.savefig(path, dpi=300, format=path.suffix.lstrip(".").lower())
 
     def _caption(self) -> str:
         state, curves = self._session.state, self._results.curves

@@ -40,6 +40,8 @@ from .start_page import Gallery, StartPage
 from .theme import GRID, apply_theme, theme_of
 
 TITLE = "Anisotropic Diffusion Descriptors"
+NEED_A_SHAPE = ("close", "script", "figure", "screenshot")
+"""Actions of the menus that need an open shape, beside those of its view."""
 
 
 class MainWindow(QMainWindow):
@@ -167,7 +169,7 @@ class MainWindow(QMainWindow):
         self.setWindowTitle(TITLE if shape is None else f"{shape.name} — {TITLE}")
         self.message.hide()
         self.parameters.play.setChecked(False)
-        for name in ("close", "script", "screenshot", "go_to", "fit", "play", "front", "back", "left", "right", "top"):
+        for name in (*NEED_A_SHAPE, "go_to", "fit", "play", "front", "back", "left", "right", "top"):
             self.menus.actions[name].setEnabled(shape is not None)
         self.hover_label.setText("" if shape is None else IDLE_TEXT)
         self.panels.show(shape is not None and self.pages.currentWidget() is self.scene)

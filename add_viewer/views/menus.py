@@ -38,6 +38,13 @@ FILE = (
     Entry(
         "screenshot", "Save &picture…", "Ctrl+P", "mdi6.camera-outline", "Save the view as a PNG, up to 4×, transparent"
     ),
+    Entry(
+        "figure",
+        "Export &figure…",
+        "Ctrl+Shift+E",
+        "mdi6.file-image-outline",
+        "Views and curves as PDF, SVG or PNG",
+    ),
     Entry("curves", "&Export curves…", "Ctrl+E", "mdi6.chart-line", "Save the curves as PNG, SVG, PDF or CSV"),
     Entry("", ""),
     Entry("close", "&Close shape", "Ctrl+W", "mdi6.close", "Close the shown shape"),

@@ -55,7 +55,7 @@ class Saving:
         dialog = dialogs.PictureDialog(view.width(), view.height(), self._window)
         if dialog.exec() != QDialog.DialogCode.Accepted:
             return
-        path = dialogs.ask_picture(self._window, self._window.settings.folder, self._name())
+        path = dialogs.ask_picture(self._window, self._window.settings.folder, self.name)
         if path is not None:
             self.save_picture(path, dialog.choice)
 
@@ -63,11 +63,11 @@ class Saving:
         """Save the view as a PNG."""
         view = self._window.scene
         image = view.picture(choice.scale, transparent=choice.transparent, labels=choice.labels)
-        self._save(path, lambda temporary: save_image(image, temporary))
+        self.write(path, lambda temporary: save_image(image, temporary))
 
     def ask_curves(self) -> None:
         """Ask for place and format, then save the curves."""
-        path = dialogs.ask_curves(self._window, self._window.settings.folder, f"{self._name()} curves")
+        path = dialogs.ask_curves(self._window, self._window.settings.folder, f"{self.name} curves")
         if path is not None:
             self.save_curves(path)
 
@@ -76,11 +76,12 @@ class Saving:
         if path.suffix.lower() == ".csv":
             results, alpha = self._window.results, self._window.session.state.diffusion.alpha
             text = self._table(results.curves, alpha)
-            self._save(path, lambda temporary: temporary.write_text(text, encoding="utf-8"))
+            self.write(path, lambda temporary: temporary.write_text(text, encoding="utf-8"))
         else:
-            self._save(path, lambda temporary: self._window.curves.save(temporary, LIGHT))
+            self.write(path, lambda temporary: self._window.curves.save(temporary, LIGHT))
 
-    def _save(self, path: Path, write) -> None:  # type: ignore[no-untyped-def]
+    def write(self, path: Path, write) -> None:  # type: ignore[no-untyped-def]
+        """Let `write` fill the file at `path`, whole or not at all, and say what happened."""
         try:
             self._write(path, write)
         except OSError as error:
@@ -89,7 +90,9 @@ class Saving:
         self._window.settings.folder = str(path.parent)
         self._window.statusBar().showMessage(f"Saved {path}", 6000)
 
-    def _name(self) -> str:
+    @property
+    def name(self) -> str:
+        """What a file about the active shape may be called."""
         shape = self._window.session.state.active
         return "shape" if shape is None else shape.name.replace("/", "-").replace(",", "")
 
