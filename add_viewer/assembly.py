@@ -18,6 +18,7 @@ from .controllers import disk
 from .controllers.carrying import CarryingController
 from .controllers.curves import CurvesController
 from .controllers.directions import DirectionsController
+from .controllers.exploration import Exploration
 from .controllers.exporting import curves_table, write_atomically
 from .controllers.job_folders import default_home
 from .controllers.jobs import JobsController
@@ -30,6 +31,7 @@ from .controllers.script_fields import WRITERS
 from .controllers.scripting import script_of
 from .controllers.training import TrainingController
 from .models.display import Display
+from .models.insights import Insights
 from .models.jobs import Jobs
 from .models.results import Results
 from .models.session import Session
@@ -42,6 +44,7 @@ from .tasks.identity import ProcessIdentity
 from .tasks.processes import ProcessRunner
 from .tasks.worker import Worker
 from .views.background import BackgroundViews
+from .views.exploring import ExploringViews
 from .views.figure_export import FigureExport
 from .views.main_window import MainWindow
 from .views.saving import Saving, save_image
@@ -95,6 +98,7 @@ class Assembly:
         self._control(read)
         self._keep(read, session)
         self._run_jobs(restore=screenshot is None)
+        self._explore()
         if theme is not None:
             self.display.set("theme", theme)
         if size is not None:
@@ -102,6 +106,7 @@ class Assembly:
 
     def _control(self, read: Read | None) -> None:
         run, operators = self.worker.submit, OperatorStore()
+        self.operators = operators
         self.opening = OpeningController(self.session, self.results, run, read)
         self.opening.opened, self.opening.failed = self._opened, self._failed
         self.carrying = CarryingController(self.session, self.results)
@@ -166,6 +171,18 @@ class Assembly:
         id = self.training.start(request)
         if id is not None:
             self.background.training_panel.select(id)
+
+    def _explore(self) -> None:
+        insights = Insights()
+        self.exploration = Exploration(
+            self.session, self.results, insights, self.jobs, self.worker.submit, self.operators
+        )
+        self.exploration.models = self.training.models
+        self.training.models_changed.connect(lambda _id: self.exploration.refresh_names())
+        self.exploration.refresh_names()
+        self.exploring = ExploringViews(self.window, insights)
+        self.exploring.symmetry.find_wanted.connect(self.exploration.symmetry.find)
+        self.exploring.symmetry.compare_wanted.connect(self.exploration.symmetry.compare)
 
     def _opened(self, shape: OpenShape) -> None:
         self.window.remember(shape.reference)

@@ -50,6 +50,7 @@ class Answers:
         self._known: OrderedDict[Question, Any] = OrderedDict()
         self._asked: dict[str, Question] = {}
         self._pending: set[Question] = set()
+        self._starting = False
         self._problems: dict[Question, str] = {}
         jobs.finished.connect(self._finished)
         jobs.changed.connect(self._changed)
@@ -68,13 +69,17 @@ class Answers:
             arguments = question.arguments(folder / question.file_name)
             self._asked[folder.name] = question
             self._pending.add(question)
-            self._jobs.start(JobRequest(question.kind, question.title, arguments, folder))
+            self._starting = True  # what listens to progress may ask for more, but not in the middle of a start
+            try:
+                self._jobs.start(JobRequest(question.kind, _capital(question.title), arguments, folder))
+            finally:
+                self._starting = False
         return known
 
     def message(self, question: Question) -> str:
         """What is happening to a question, in words: "Computing WKS of Person 1 … 40 %"."""
         if question in self._problems:
-            return f"{question.title}: {self._problems[question]}"
+            return f"{_capital(question.title)}: {self._problems[question]}"
         id = next((id for id, asked in reversed(self._asked.items()) if asked == question), None)
         job = self._jobs[id] if id is not None and id in self._jobs else None
         share = f" {100 * job.share:.0f} %" if job is not None and job.share else ""
@@ -97,7 +102,8 @@ class Answers:
             if not self._jobs[id].is_finished:
                 self._problems.pop(self._asked[id], None)  # tried again from the list of jobs
                 self._pending.add(self._asked[id])
-            self.progressed.emit(self._asked[id])
+            if not self._starting:
+                self.progressed.emit(self._asked[id])
 
     def _finished(self, id: str) -> None:
         question = self._asked.get(id)
@@ -129,6 +135,10 @@ class Answers:
         self._pending.discard(question)
         self._problems[question] = reason
         self.arrived.emit(question)
+
+
+def _capital(title: str) -> str:
+    return title[:1].upper() + title[1:]
 
 
 def _size(answer: Any) -> int:

@@ -16,6 +16,7 @@ from add_core.io import load_fields
 from ..models.descriptor_names import PLAIN, descriptor_name
 from ..models.shapes import OpenShape, Shape
 from .answers import Answers
+from .descriptor_maps import median_distance
 
 FloatArray = NDArray[np.float32]
 
@@ -73,6 +74,7 @@ class DescriptorStore:
     ) -> None:
         self.answers = answers
         self._models, self._shipped = models, shipped
+        self._medians: dict[DescriptorQuestion, float] = {}
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -92,6 +94,19 @@ class DescriptorStore:
     def message(self, shape: OpenShape, name: str) -> str:
         """What is happening to them, in words."""
         return self.answers.message(question_of(shape, name))
+
+    def is_asked(self, shape: OpenShape, name: str) -> bool:
+        """Whether they are being computed, or have failed to be."""
+        question = question_of(shape, name)
+        return self.answers.is_asked(question) or self.answers.has_failed(question)
+
+    def median(self, shape: OpenShape, name: str) -> float:
+        """Median distance of two points in descriptors that are there."""
+        question = question_of(shape, name)
+        if question not in self._medians:
+            found = self.answers.get(question)
+            self._medians[question] = 1.0 if found is None else median_distance(found)
+        return self._medians[question]
 
 
 def question_of(shape: OpenShape, name: str) -> DescriptorQuestion:

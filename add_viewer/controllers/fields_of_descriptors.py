@@ -11,14 +11,12 @@ from ..models.session import SessionState
 from .descriptor_maps import ambiguity, best_places, distance_map
 from .field_plans import Place, Plan, Sources, same
 
-PICK_FIRST = "Click a point: every shape shows how much its points are like it"
-
 
 def distance_plan(place: Place, sources: Sources) -> Plan:
     """Distances to the picked point in descriptor space, the paper's Figure 6."""
     pick = asked_point(place.state)
     if pick is None:
-        return Plan(message=PICK_FIRST)
+        return Plan()
     owner = place.state.shape(pick.shape)
     assert owner is not None
     name, store = place.choice.descriptor, sources.descriptors

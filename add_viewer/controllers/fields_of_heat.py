@@ -30,7 +30,7 @@ def rose_plan(place: Place, sources: Sources) -> Plan:
     """
     picks = place.state.picks_on(place.shape.key) or sources.results.carried.get(place.shape.key, ())
     if not picks:
-        return Plan(message="Click the body to drop heat on it")
+        return Plan()
     diffusion, shape = place.state.diffusion, place.shape
     mirrored = place.choice.name == "mirror"
 

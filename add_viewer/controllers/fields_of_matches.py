@@ -9,9 +9,11 @@ from numpy.typing import NDArray
 
 from add_core.drawing.position_colours import position_colours
 
+from ..models.diffusion import Diffusion
 from ..models.fields import FieldChoice, ShapeField, ValueScale
 from ..models.shapes import OpenShape
 from .field_plans import Place, Plan, Sources, same
+from .operators import OperatorStore
 
 FloatArray = NDArray[np.float64]
 
@@ -42,29 +44,40 @@ def transfer_plan(place: Place, sources: Sources) -> Plan:
 
 
 def _heat_plan(place: Place, source: OpenShape, sources: Sources) -> Plan:
-    kernel = sources.results.kernel
-    if kernel is None or kernel.shape != source.key:
+    vertices = tuple(pick.vertex for pick in place.state.active_picks)
+    if not vertices:
         return Plan(message=f"Click {source.name}: its heat is carried to the others")
     match = _match(place, source, sources)
     if match is None:
         return Plan(message=sources.matching.message(place.shape.key))
+    diffusion = place.state.diffusion
 
     def work() -> ShapeField:
-        values = kernel.values[match]
+        heat = _heat(source, vertices, diffusion, sources.operators)
         return ShapeField(
             shape=place.shape.key,
             choice=place.choice,
-            values=values,
+            values=heat[match],
             title="Carried heat kernel",
             notes=("unit 1/⌀²", "linear scale"),
             caption=f"Heat of {source.name}" if place.shape.key != source.key else "The source of the heat",
             tones="kernel",
-            scale=ValueScale.of_kernel(kernel.values, "linear"),
+            scale=ValueScale.of_kernel(heat, "linear"),
             symbol="h",
             unit="/⌀²",
         )
 
-    return Plan((place.choice, same(match) if place.shape.key != source.key else 0, same(kernel)), work)
+    changing = same(match) if place.shape.key != source.key else 0
+    return Plan((place.choice, changing, same(source.shape), vertices, diffusion), work)
+
+
+def _heat(source: OpenShape, vertices: tuple[int, ...], diffusion: Diffusion, operators: OperatorStore) -> FloatArray:
+    """(n,) of all picks together, 1/⌀²."""
+    flow = operators.flow(source, diffusion.conductivity, diffusion.alpha, "kernel")
+    scale = operators.laplacian(source, diffusion.conductivity, diffusion.alpha).weyl_eigenvalue(1)
+    kernels = [flow.kernel(vertex, theta=diffusion.theta, time=diffusion.reach / scale) for vertex in vertices]
+    total: FloatArray = np.sum(kernels, axis=0)
+    return total
 
 
 def error_plan(place: Place, sources: Sources) -> Plan:

@@ -71,7 +71,7 @@ def kernel_plan(place: Place, sources: Sources) -> Plan:
     chosen = next((each for each in FILTERS if each.name == place.choice.name), FILTERS[0])
     picks = place.state.picks_on(place.shape.key) or sources.results.carried.get(place.shape.key, ())
     if not picks:
-        return Plan(message="Click the body to see the kernel around that point")
+        return Plan()
     question = SpectrumQuestion.of(place.shape, place.state.diffusion)
     pairs = sources.answers.want(question)
     if pairs is None:

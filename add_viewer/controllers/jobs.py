@@ -125,6 +125,8 @@ class JobsController:
     # -- what is asked for --------------------------------------------------------------------------------------------
 
     def _enqueue(self, id: str) -> None:
+        if id in self._running:
+            return  # whoever heard of it has asked for another job, which let this one begin
         waiting = replace(self._jobs[id], state="waiting", message="", result={}, hidden=False)
         self._put(replace(waiting, done=0, total=0))
         self._start_next()

@@ -15,6 +15,7 @@ from add_core.errors import ShapeFileError
 from add_core.evaluation import PrincetonCurve, princeton_curve, surface_area
 
 from ..models.descriptor_names import descriptor_name
+from ..models.insights import Insights, MatchQuality, QualityCurve
 from ..models.matching import Matching, Method
 from ..models.results import Results
 from ..models.session import Session, SessionState
@@ -27,7 +28,6 @@ IntArray = NDArray[np.int64]
 
 _REFINEMENT: dict[Method, str] = {"nearest": "fm", "functional-map": "icp", "zoomout": "zoomout"}
 """What the switch adds: the paper's smoothing by a functional map, ICP of the map itself, or ZoomOut."""
-_NEEDS = frozenset({"transfer", "error"})
 
 
 @dataclass(frozen=True, eq=False)
@@ -106,16 +106,15 @@ class MatchQuestion:
 class MatchingController:
     """Keeps `Results.maps` in step with the source, the targets and the chosen matching.
 
-    Maps are computed once somebody looks at them: a transfer or error field is shown, or picks are carried by them.
     changed : something is known, or goes on, that was not before.
     """
 
     changed = Signal()
 
-    def __init__(self, session: Session, results: Results, answers: Answers) -> None:
-        self._session, self._results, self._answers = session, results, answers
+    def __init__(self, session: Session, results: Results, insights: Insights, answers: Answers) -> None:
+        self._session, self._results, self._insights, self._answers = session, results, insights, answers
         session.matching_changed.connect(answers.forget_problems)
-        for signal in (session.shapes_changed, session.active_changed, session.field_changed, session.matching_changed):
+        for signal in (session.shapes_changed, session.active_changed, session.matching_changed):
             signal.connect(self._follow)
         answers.arrived.connect(self._arrived)
         answers.progressed.connect(lambda question: self._tell(question))
@@ -153,9 +152,20 @@ class MatchingController:
             if state.matching.method == "true":
                 shared = source.shares_vertices_with(target)
                 self._set(source, target, np.arange(target.vertex_count) if shared else None)
-            elif needs_maps(state):
+            else:
                 found = self._answers.want(question_of(source, target, state.matching))
                 self._set(source, target, None if found is None else found.match(refined=state.matching.refined))
+        self._announce()
+
+    def _announce(self) -> None:
+        state, root = self._session.state, None
+        qualities = []
+        for target in _targets(state) if state.matching.method != "true" else ():
+            found = self.found(target.key)
+            root = self.root_area() if root is None else root
+            curves = {} if found is None else curves_of(found, root)
+            qualities.append(MatchQuality(target.key, self.message(target.key), curves))
+        self._insights.set_qualities(tuple(qualities))
         self.changed.emit()
 
     def _set(self, source: OpenShape, target: OpenShape, match: IntArray | None) -> None:
@@ -171,12 +181,18 @@ class MatchingController:
 
     def _tell(self, question: Question) -> None:
         if isinstance(question, MatchQuestion):
-            self.changed.emit()
+            self._announce()
 
 
-def needs_maps(state: SessionState) -> bool:
-    """Whether a field that is shown depends on a correspondence."""
-    return any(choice.kind in _NEEDS for choice in state.choices)
+def curves_of(found: FoundMap, root_area: float) -> dict[tuple[bool, bool], QualityCurve]:
+    """By (refined, symmetric); errors were divided by `root_area`, √area in geodesic diameters."""
+    curves = {}
+    for refined in (False, True):
+        for symmetric in (False, True):
+            curve = found.curve(refined=refined, symmetric=symmetric)
+            if curve is not None:
+                curves[refined, symmetric] = QualityCurve(curve.x, curve.y, curve.mean_error * root_area, curve.exact)
+    return curves
 
 
 def question_of(source: OpenShape, target: OpenShape, matching: Matching) -> MatchQuestion:

@@ -20,6 +20,11 @@ PLAIN = (
     DescriptorName("si-hks", "SI-HKS", "Scale-invariant heat kernel signature: the same for a shape of any size."),
     DescriptorName("wks", "WKS", "Wave kernel signature: band-pass filters, sharper than heat, without direction."),
     DescriptorName("ahks", "AHKS", "Anisotropic heat kernel signature, α = 50, 16 directions: knows left from right."),
+    DescriptorName(
+        "geometry-vectors",
+        "Directed",
+        "Band-pass kernels in 16 directions, the input of the paper's networks: knows left from right.",
+    ),
     DescriptorName("wft", "WFT", "Windowed Fourier transform: which frequencies there are around a point."),
 )
 """Those that need no learning."""
@@ -31,6 +36,15 @@ _LEARNED = {
 }
 
 
+_OWN: dict[str, str] = {}
+
+
+def name_models(titles: dict[str, str]) -> None:
+    """Call trained models by these titles, by path, from now on."""
+    _OWN.clear()
+    _OWN.update(titles)
+
+
 def descriptor_name(name: str) -> DescriptorName:
     """What is known about any name: plain, shipped or a trained model's path."""
     plain = next((each for each in PLAIN if each.name == name), None)
@@ -40,5 +54,7 @@ def descriptor_name(name: str) -> DescriptorName:
         return _LEARNED[name]
     path = Path(name)
     own = path.name != name
+    if name in _OWN:
+        return DescriptorName(name, _OWN[name], "Your own trained model.")
     title = path.parent.name if own and path.stem in ("model", "best", "last", "checkpoint") else path.stem
     return DescriptorName(name, title, "Your own trained model." if own else "A learned descriptor that ships.")

@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 
 from .descriptor_names import descriptor_name
 from .fields import FieldChoice
+from .searching import fold
 from .session import SessionState
 
 GROUPS = ("Heat", "Distance", "Symmetry", "Spectrum", "Signatures", "Geometry", "From file", "Transfer")
@@ -187,16 +188,19 @@ def _is_wide(state: SessionState, name: str) -> bool:
 
 
 def found_by(entries: tuple[FieldEntry, ...], text: str) -> tuple[FieldEntry, ...]:
-    """The entries in which every word of `text` begins a word, or occurs in the title."""
-    wanted = text.lower().split()
+    """The entries in which every word of `text` begins a word, or is in the title; those with all in the title first.
+
+    Greek letters may be written out.
+    """
+    wanted = fold(text).split()
 
     def fits(entry: FieldEntry) -> bool:
-        title = entry.title.lower()
-        words = f"{title} {entry.group} {entry.help} {entry.words}".lower().split()
+        title = fold(entry.title)
+        words = fold(f"{title} {entry.group} {entry.help} {entry.words}").split()
         return all(word in title or any(each.startswith(word) for each in words) for word in wanted)
 
     hits = [entry for entry in entries if fits(entry)]
-    return tuple(sorted(hits, key=lambda entry: not all(word in entry.title.lower() for word in wanted)))
+    return tuple(sorted(hits, key=lambda entry: not all(word in fold(entry.title) for word in wanted)))
 
 
 def entry_of(entries: tuple[FieldEntry, ...], choice: FieldChoice) -> FieldEntry:

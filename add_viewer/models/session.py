@@ -8,7 +8,7 @@ from typing import Any
 
 from psygnal import Signal
 
-from .arrangement import Arrangement, ShapeLook
+from .arrangement import Arrangement, Layout, ShapeLook
 from .diffusion import Diffusion
 from .fields import FieldChoice
 from .matching import Matching
@@ -149,6 +149,27 @@ class Session:
         made = self.state.field.with_changes(**changes)
         sliding = set(changes) <= {"saturation", "index"}
         self._apply("field " + " ".join(sorted(changes)), replace(self.state, field=made), coalesce=sliding)
+
+    def saturate(self, percentile: float) -> None:
+        """Change where distances saturate, in both panels: side by side, colours must mean the same."""
+        state = self.state
+        field = state.field.with_changes(saturation=percentile)
+        compare = None if state.compare is None else state.compare.with_changes(saturation=percentile)
+        self._apply("saturate", replace(state, field=field, compare=compare), coalesce=True)
+
+    def set_scene(
+        self,
+        *,
+        field: FieldChoice,
+        compare: FieldChoice | None,
+        picks: tuple[Pick, ...] | None = None,
+        layout: Layout | None = None,
+    ) -> None:
+        """Change fields, picks and layout together, as one step of undo; None leaves picks or layout as they are."""
+        state = replace(self.state, field=field, compare=compare)
+        state = state if picks is None else replace(state, picks=picks)
+        arrangement = state.arrangement if layout is None else state.arrangement.with_changes(layout=layout)
+        self._apply("scene", replace(state, arrangement=arrangement))
 
     def choose_comparison(self, choice: FieldChoice | None) -> None:
         """Draw a second field beside the first, or None: the first alone."""

@@ -82,6 +82,12 @@ HELP = (
     Entry("shortcuts", "&Mouse and keyboard", "F1; ?", "mdi6.keyboard-outline", "What mouse and keys do, on one sheet"),
     Entry("about", "&About", "", "mdi6.information-outline"),
 )
+FIELDS = (
+    Entry("choose_field", "&Choose a field…", "Ctrl+F", "mdi6.palette-outline", "What is drawn on the shapes"),
+    Entry("choose_comparison", "Choose a &second field…", "Ctrl+Shift+F", "mdi6.view-split-vertical", "Side by side"),
+    Entry("explore_symmetry", "E&xplore symmetry", "S", "mdi6.compare-horizontal", "A point and its mirror image"),
+    Entry("transfer", "&Transfer colours", "T", "mdi6.transfer", "The source's colours on the other shapes"),
+)
 SWITCHES = (
     Entry("arrows", "&Directions on the skin", "D", "mdi6.arrow-top-right", "Where heat runs, turned by θ"),
     Entry("wireframe", "&Wireframe", "W", "mdi6.grid", "The triangles' edges"),
@@ -130,6 +136,8 @@ class Menus:
         return menu
 
     def _view_menu(self, menu: QMenu) -> QMenu:
+        self._menu(menu, FIELDS)
+        menu.addSeparator()
         for entry in SWITCHES:
             action = self._action(entry)
             action.setCheckable(True)

@@ -188,7 +188,9 @@ class AxesTriad(Overlay):
 
 
 class Hint(Overlay):
-    """What to do next, where there is nothing to see yet."""
+    """What to do next, or what is being done, where there is nothing to see yet; long words take several lines."""
+
+    _PADDING = QSize(16, 7)
 
     def __init__(self, parent: QWidget) -> None:
         super().__init__(parent, QSize(320, 36))
@@ -199,12 +201,20 @@ class Hint(Overlay):
         self.setVisible(bool(text))
         self.update()
 
+    def fit(self, width: int) -> None:
+        """Take up at most `width`."""
+        self.setFixedSize(max(80, min(400, width)), 96)
+
     def draw(self, painter: QPainter) -> None:
         self._pen(painter, "text")
-        width = painter.fontMetrics().horizontalAdvance(self._text) + 32
-        box = QRectF(self.width() - width - 1, 2, width, 32)
+        across, down = self._PADDING.width(), self._PADDING.height()
+        room = QRectF(0, 0, self.width() - 2 * across - 2, self.height())
+        flags = Qt.AlignmentFlag.AlignCenter | Qt.TextFlag.TextWordWrap
+        words = painter.boundingRect(room, flags, self._text).size()
+        width, height = words.width() + 2 * across, words.height() + 2 * down
+        box = QRectF(self.width() - width - 1, self.height() - height - 1, width, height)
         painter.setBrush(self.theme.colour("panel"))
         painter.setPen(QPen(self.theme.colour("line"), 1))
         painter.drawRoundedRect(box, 16, 16)
         painter.setPen(self.theme.colour("text"))
-        painter.drawText(box, Qt.AlignmentFlag.AlignCenter, self._text)
+        painter.drawText(box.adjusted(across - 1, 0, 1 - across, 0), flags, self._text)

@@ -47,6 +47,8 @@ class ParameterPanel(QWidget):
         self.theta = NumberField(show_as=lambda value: f"{value:.4g}", step=lambda value, step: value + step)
         self.play = QPushButton("Play")
         self.picks = PickList(session)
+        self.model_row = _named("Conductivity", self.model, MODEL_HELP)
+        self.theta_row = self._theta_row()
         self.scale_note = QLabel()
         self._player = Player(session, self)
         self._build()
@@ -67,9 +69,9 @@ class ParameterPanel(QWidget):
         layout.setSpacing(int(1.5 * GRID))
         for row in (
             self.shapes,
-            _named("Conductivity", self.model, MODEL_HELP),
+            self.model_row,
             self.alpha,
-            self._theta_row(),
+            self.theta_row,
             self.time,
             _line(),
             self.picks,
@@ -77,6 +79,22 @@ class ParameterPanel(QWidget):
             layout.addWidget(row)
         layout.addStretch(1)
         layout.addWidget(self.scale_note)
+
+    def add_section(self, section: QWidget) -> None:
+        """Put a section between the shapes and the controls of the diffusion."""
+        column = self.layout()
+        assert isinstance(column, QVBoxLayout)
+        column.insertWidget(1, section)
+
+    def show_relevance(self, controls: frozenset[str]) -> None:
+        """Let only those controls be used that matter for what is drawn: "model", "alpha", "theta", "time".
+
+        Where none does, they serve the curves, and all stay.
+        """
+        rows = {"model": self.model_row, "alpha": self.alpha, "theta": self.theta_row, "time": self.time}
+        matters = controls & set(rows) or frozenset(rows)
+        for name, row in rows.items():
+            row.setEnabled(name in matters)
 
     def _theta_row(self) -> QWidget:
         label = QLabel("Direction &θ")

@@ -141,8 +141,9 @@ class ShapeView(QWidget):
         self._show_hint()
 
     def _show_hint(self) -> None:
-        state = self._session.state
-        self.hint.show_text(invitation(state) if self.key == state.active_key and self.panel == 0 else "")
+        state, field = self._session.state, self.field
+        invites = self.key == state.active_key and self.panel == 0
+        self.hint.show_text((field.message if field is not None else "") or (invitation(state) if invites else ""))
 
     def _field_came(self, panel: int, key: str) -> None:
         if panel == self.panel and (key == self.key or self._session.state.arrangement.common_range):
@@ -151,6 +152,7 @@ class ShapeView(QWidget):
     def _show_field(self) -> None:
         field = self.field
         self.canvas.show_field(field)
+        self._show_hint()
         shows_bar = field is not None and field.values is not None and self._display["colour_bar"]
         self.colour_bar.setVisible(shows_bar)
         self.label.show_parameters("" if field is None else field.caption)
@@ -236,6 +238,7 @@ class ShapeView(QWidget):
         self.triad.move(gap - 4, height - self.triad.height() - gap + 4)
         left = (width - self.colour_bar.width()) // 2 if small else width - self.colour_bar.width() - gap
         self.colour_bar.move(left, height - self.colour_bar.height() - (GRID // 2 if small else gap))
+        self.hint.fit(width - 2 * gap)
         self.hint.move(width - self.hint.width() - gap, height - self.hint.height() - gap)
 
     def picture(self, scale: float, *, transparent: bool = False, labels: bool = True) -> QImage:

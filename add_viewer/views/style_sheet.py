@@ -37,6 +37,9 @@ QPushButton, QToolButton { background: $panel; border: 1px solid $line; border-r
     padding: 4px 10px; min-height: 18px; }
 QToolButton { padding: 4px; }
 QToolButton:disabled, QPushButton:disabled { color: $muted; }
+QToolButton[link="true"] { border: none; background: transparent; color: $accent; padding: 1px 0; min-height: 16px; }
+QToolButton[link="true"]:hover, QToolButton[link="true"]:focus { text-decoration: underline; }
+QPushButton[choice="true"] { text-align: left; padding: 4px 8px; }
 QToolButton[quiet="true"] { border: 1px solid transparent; background: transparent; }
 QPushButton:hover, QToolButton:hover { border-color: $muted; }
 QPushButton:pressed, QToolButton:pressed, QToolButton:checked, QPushButton:checked { border-color: $accent;

@@ -9,8 +9,9 @@ from balls import Core, open_ball
 
 from add_core.errors import ShapeFileError
 from add_viewer.controllers.answers import Answers
-from add_viewer.controllers.descriptors import DescriptorQuestion, question_of
+from add_viewer.controllers.descriptors import DescriptorQuestion, DescriptorStore, question_of
 from add_viewer.controllers.symmetry import SymmetryController
+from add_viewer.models.insights import Insights
 from add_viewer.models.jobs import Jobs
 from add_viewer.models.results import Results
 from add_viewer.models.session import Session
@@ -79,7 +80,7 @@ def test_failures_are_kept_until_somebody_chooses_anew_or_tries_again(world, run
     answers.want(Ones("a"))
     end(jobs, run, "failed")
     assert heard == [Ones("a")]
-    assert answers.message(Ones("a")) == "ones for a: it broke"
+    assert answers.message(Ones("a")) == "Ones for a: it broke"
     answers.want(Ones("a"))
     assert len(jobs.all) == 1
     jobs.put(replace(jobs.all[0], state="running"))  # "retry" in the list of jobs
@@ -121,7 +122,9 @@ def test_the_mirror_map_of_a_shape_is_found_by_itself(tmp_path, run, monkeypatch
     monkeypatch.setenv("ADD_CACHE_DIR", str(tmp_path / "cache"))
     jobs, session, results = Jobs(tmp_path / "jobs"), Session(), Results()
     core, answers = Core(jobs), Answers(jobs, run)
-    controller = SymmetryController(session, results, answers)
+    store = DescriptorStore(answers, lambda: (), lambda: ())
+    insights = Insights()
+    controller = SymmetryController(session, results, insights, store)
     shape = open_ball(tmp_path, symmetric=False)
     session.add_shape(shape)
     assert controller.message(shape.key) == ""
@@ -134,5 +137,16 @@ def test_the_mirror_map_of_a_shape_is_found_by_itself(tmp_path, run, monkeypatch
     assert 0 < learned.symmetry_confidence <= 1
     places = shape.shape.vertices - shape.shape.vertices.mean(axis=0)
     assert np.median(np.linalg.norm(places[learned.symmetry] - places * [-1, 1, 1], axis=1)) < 0.05
+    session.pick(int(np.argmax(places[:, 0])))
+    controller.compare("hks")
+    assert next(each for each in insights.tellings if each.descriptor == "hks").message.startswith("Computing HKS")
+    controller.compare("ahks")
+    for _ in range(2):
+        core.answer()
+    run.answer_all()
+    told = {each.descriptor: each.ratio for each in insights.tellings}
+    assert told["hks"] < 0.05 < told["ahks"]
+    assert told["wks"] is None
+    session.undo()
     session.undo()
     assert session.state.shape(shape.key).symmetry is None

@@ -16,6 +16,7 @@ from add_viewer.controllers.matching import MatchingController
 from add_viewer.controllers.operators import OperatorStore
 from add_viewer.models.display import Display
 from add_viewer.models.fields import FieldChoice
+from add_viewer.models.insights import Insights
 from add_viewer.models.jobs import Jobs
 from add_viewer.models.results import Results
 from add_viewer.models.session import Session
@@ -25,13 +26,13 @@ class World:
     """Two balls of one connectivity in a session, with everything that fills fields."""
 
     def __init__(self, folder, run):
-        self.session, self.results, self.run = Session(), Results(), run
+        self.session, self.results, self.insights, self.run = Session(), Results(), Insights(), run
         self.jobs = Jobs(folder / "jobs")
         self.core = Core(self.jobs)
         answers, operators = Answers(self.jobs, run), OperatorStore()
         store = DescriptorStore(answers, lambda: (), lambda: ())
         self.kernel = KernelController(self.session, self.results, Display(), run, operators)
-        self.matching = MatchingController(self.session, self.results, answers)
+        self.matching = MatchingController(self.session, self.results, self.insights, answers)
         self.sources = Sources(self.results, answers, store, operators, self.matching)
         self.fields = FieldController(self.session, self.sources, run)
         self.bent, self.egg = open_ball(folder, "bent", bent=0.08), open_ball(folder)
@@ -56,7 +57,7 @@ def world(tmp_path, run, monkeypatch):
 
 def test_a_distance_map_is_zero_at_the_point_and_saturates_at_the_median(world):
     world.session.choose_field(kind="distance", descriptor="wks")
-    assert "Click a point" in world.field().message
+    assert not world.results.fields
     world.session.pick(5)
     assert "Computing WKS of" in world.field().message
     world.settle()
@@ -148,7 +149,7 @@ def test_an_eigenfunction_is_one_and_follows_alpha(world):
 def test_the_wave_kernel_is_the_sum_over_its_band(world):
     world.session.diffuse(alpha=0.0, reach=0.3)
     world.session.choose_field(kind="kernel", name="wave")
-    assert "Click the body" in world.field().message
+    assert not world.results.fields
     world.session.pick(3)
     world.settle()
     values = world.field().values
@@ -237,9 +238,45 @@ def test_errors_are_shown_where_the_truth_is_known(world):
     match, field = world.results.maps[world.egg.key, world.bent.key], world.field(world.bent)
     assert_array_equal(field.values > 0, match != np.arange(len(match)))
     found = world.matching.found(world.bent.key)
+    (quality,) = world.insights.qualities
+    mean = world.field(world.bent).values.mean()
+    assert quality.curves[False, False].mean == pytest.approx(mean)
+    assert quality.message == ""
     assert found.curve(refined=False).exact == pytest.approx((match == np.arange(len(match))).mean())
     world.session.match(method="true")
     assert "has no error" in world.field(world.bent).message
+
+
+def test_the_best_places_are_listed_with_their_distance_and_geodesic_error(world):
+    from add_core.geometry.pair_distances import PairDistances
+    from add_viewer.controllers.best_matches import BestMatchesController
+
+    controller = BestMatchesController(world.session, world.results, world.insights, world.run)
+    world.session.choose_field(kind="distance", descriptor="wks")
+    eta = world.egg.symmetry
+    vertex = int(np.argmax(np.abs(world.egg.shape.vertices[:, 0])))
+    world.session.pick(vertex)
+    world.settle()
+    best = world.insights.best[0, world.egg.key]
+    values = world.field().values
+    assert (best[0].vertex, best[0].is_mirror) == (eta[vertex], True)  # WKS takes it for the point itself
+    assert best[0].distance == pytest.approx(values[eta[vertex]] / np.median(values), abs=1e-9)
+    true = PairDistances(world.egg.shape).rows([vertex])[0]
+    assert [each.error for each in best] == pytest.approx([true[each.vertex] for each in best])
+    assert world.insights.best[0, world.bent.key][0].error is not None
+    world.session.clear_picks()
+    assert controller is not None  # signals hold it weakly
+    assert world.insights.best == {}
+
+
+def test_heat_is_carried_to_the_targets(world):
+    world.session.choose_field(kind="transfer", name="heat")
+    assert "Click egg" in world.field(world.bent).message
+    world.session.pick(3)
+    world.settle()
+    carried = world.field(world.bent).values
+    assert_array_equal(carried, world.field().values)
+    assert carried @ world.egg.shape.vertex_areas == pytest.approx(1.0, rel=1e-6)
 
 
 def test_a_late_field_is_dropped(world):

@@ -1,0 +1,104 @@
+"""The Princeton protocol of the shown matchings, as in the paper's Figure 9."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from matplotlib.backends.backend_qtagg import FigureCanvasQTAgg
+from matplotlib.figure import Figure
+from PySide6.QtCore import QSize, Qt
+from PySide6.QtWidgets import QLabel, QStackedLayout, QVBoxLayout, QWidget
+
+from ..models.insights import Insights, MatchQuality
+from ..models.session import Session
+from .theme import GRID, LIGHT, Theme
+
+LEGEND = (
+    "Share of matches within a geodesic radius of the truth. Solid: a mirror image counts as right; dashed: as wrong."
+)
+_SHADES = (1.0, 0.62, 0.4)
+
+
+class QualityPlot(QWidget):
+    """One curve for each target, solid symmetric and dashed asymmetric; what the switch does not show is thin."""
+
+    def __init__(self, session: Session, insights: Insights) -> None:
+        super().__init__()
+        self._session, self._insights, self._theme = session, insights, LIGHT
+        self.figure = Figure()
+        self.canvas: QWidget = FigureCanvasQTAgg(self.figure)  # type: ignore[no-untyped-call]
+        self.empty = QLabel("Choose a matching of shapes whose true correspondence is known to see how good it is")
+        self.empty.setAlignment(Qt.AlignmentFlag.AlignCenter)
+        self.empty.setWordWrap(True)
+        self.empty.setProperty("role", "muted")
+        legend = QLabel(LEGEND)
+        legend.setProperty("role", "muted")
+        legend.setContentsMargins(2 * GRID, 0, 2 * GRID, GRID // 2)
+        legend.setWordWrap(True)
+        plot = QWidget()
+        column = QVBoxLayout(plot)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.setSpacing(0)
+        column.addWidget(self.canvas, 1)
+        column.addWidget(legend)
+        self._stack = QStackedLayout(self)
+        self._stack.addWidget(self.empty)
+        self._stack.addWidget(plot)
+        insights.qualities_changed.connect(self._show)
+        session.matching_changed.connect(self._show)
+
+    @property
+    def shown(self) -> list[MatchQuality]:
+        """The targets whose quality is known."""
+        return [quality for quality in self._insights.qualities if quality.curves]
+
+    def _show(self) -> None:
+        self._stack.setCurrentIndex(1 if self.shown else 0)
+        if self.isVisible():
+            self._draw()
+
+    def showEvent(self, event: Any) -> None:
+        super().showEvent(event)
+        self._draw()
+
+    def _draw(self) -> None:
+        theme = self._theme
+        self.figure.clear()
+        self.figure.set_facecolor(theme.window)
+        axes = self.figure.add_axes((0.08, 0.24, 0.72, 0.62))
+        axes.set_facecolor(theme.panel)
+        axes.tick_params(colors=theme.muted, labelsize=8, length=3, width=0.8)
+        axes.grid(True, color=theme.grid, linewidth=0.8)
+        for spine in axes.spines.values():
+            spine.set_color(theme.line)
+        axes.set_xlim(0.0, 0.3)
+        axes.set_ylim(0.0, 1.0)
+        axes.set_yticks([0, 0.25, 0.5, 0.75, 1], ["0", "25 %", "50 %", "75 %", "100 %"])
+        axes.set_xlabel("geodesic error ÷ √area", color=theme.muted, fontsize=8, labelpad=1)
+        axes.set_title("Matches within that error", loc="left", fontsize=9, color=theme.text, pad=4)
+        for number, quality in enumerate(self.shown):
+            self._draw_curves(axes, number, quality)
+        self.canvas.draw()  # type: ignore[attr-defined]
+
+    def _draw_curves(self, axes: Any, number: int, quality: MatchQuality) -> None:
+        refined = self._session.state.matching.refined
+        shape = self._session.state.shape(quality.target)
+        for (stage, symmetric), curve in quality.curves.items():
+            current = stage == refined
+            colour = self._theme.accent if current else self._theme.muted
+            line = {"lw": 2.0 if current else 1.0, "ls": "-" if symmetric else "--", "color": colour}
+            axes.plot(curve.x, curve.y, alpha=_SHADES[number % len(_SHADES)], **line)
+        end = quality.curves[refined, False]
+        name = "" if shape is None else shape.name
+        label = f"{name}: {100 * end.exact:.0f} % exact"
+        place = 0.96 - 0.11 * number
+        axes.text(1.02, place, label, transform=axes.transAxes, fontsize=8, color=self._theme.text, va="top")
+
+    def show_theme(self, theme: Theme) -> None:
+        """Draw in the theme's colours."""
+        self._theme = theme
+        if self.isVisible():
+            self._draw()
+
+    def sizeHint(self) -> QSize:
+        return QSize(720, 240)

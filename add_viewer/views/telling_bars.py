@@ -1,0 +1,109 @@
+"""Bars that show how far each descriptor tells a point from its mirror image: the paper's point at one glance."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import QPointF, QRectF, QSize, Qt, Signal
+from PySide6.QtGui import QColor, QFont, QMouseEvent, QPainter, QPaintEvent, QPen
+from PySide6.QtWidgets import QSizePolicy, QWidget
+
+from add_core.drawing.colour_maps import distance_map
+from add_core.drawing.colours import hex_colour
+
+from ..models.descriptor_names import descriptor_name
+from ..models.insights import Telling
+from .theme import GRID, LIGHT, Theme
+
+_ROW, _LABEL, _NUMBER, _SCALE = 3 * GRID, 9 * GRID, 5 * GRID, 3 * GRID
+
+
+class TellingBars(QWidget):
+    """One row a descriptor, from 0 (mistaken for its mirror image) to 1 (as far apart as any two points).
+
+    wanted : the person clicks a descriptor that is not computed yet. chosen : or one that is.
+    """
+
+    wanted = Signal(str)
+    chosen = Signal(str)
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._tellings: tuple[Telling, ...] = ()
+        self._theme = LIGHT
+        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
+        self.setCursor(Qt.CursorShape.PointingHandCursor)
+        self.setToolTip("Click a descriptor to draw it over the whole body; what is not computed yet is computed.")
+
+    def show_tellings(self, tellings: tuple[Telling, ...]) -> None:
+        """Draw these rows."""
+        self._tellings = tellings
+        self.setFixedHeight(_ROW * len(tellings) + _SCALE)
+        words = [f"{descriptor_name(each.descriptor).title}: {_number(each)}" for each in tellings]
+        self.setAccessibleDescription("; ".join(words))
+        self.update()
+
+    def show_theme(self, theme: Theme) -> None:
+        """Colours of words and tracks."""
+        self._theme = theme
+        self.update()
+
+    def row_centre(self, descriptor: str) -> QPointF:
+        """Where a descriptor's row is, in this widget."""
+        row = [each.descriptor for each in self._tellings].index(descriptor)
+        return QPointF(self.width() / 2, (row + 0.5) * _ROW)
+
+    def mousePressEvent(self, event: QMouseEvent) -> None:
+        row = int(event.position().y() // _ROW)
+        if 0 <= row < len(self._tellings):
+            telling = self._tellings[row]
+            known = telling.ratio is not None or telling.message.startswith("Pick")
+            (self.chosen if known else self.wanted).emit(telling.descriptor)
+
+    def sizeHint(self) -> QSize:
+        return QSize(32 * GRID, _ROW * max(1, len(self._tellings)) + _SCALE)
+
+    def paintEvent(self, _event: QPaintEvent) -> None:
+        painter = QPainter(self)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        for row, telling in enumerate(self._tellings):
+            self._paint_row(painter, QRectF(0, row * _ROW, self.width(), _ROW), telling)
+        self._paint_scale(painter, _ROW * len(self._tellings))
+
+    def _track(self, y: float) -> QRectF:
+        return QRectF(_LABEL, y - 5, self.width() - _LABEL - _NUMBER - GRID, 10)
+
+    def _paint_row(self, painter: QPainter, row: QRectF, telling: Telling) -> None:
+        known = telling.ratio is not None
+        middle = Qt.AlignmentFlag.AlignVCenter
+        painter.setPen(self._theme.colour("text" if known else "muted"))
+        name = painter.fontMetrics().elidedText(
+            descriptor_name(telling.descriptor).title, Qt.TextElideMode.ElideRight, _LABEL - GRID
+        )
+        painter.drawText(row, middle | Qt.AlignmentFlag.AlignLeft, name)
+        track = self._track(row.center().y())
+        painter.setPen(Qt.PenStyle.NoPen)
+        painter.setBrush(self._theme.colour("line"))
+        painter.drawRoundedRect(track, 5, 5)
+        if telling.ratio is not None:
+            share = min(max(telling.ratio, 0.0), 1.0)
+            painter.setBrush(QColor(hex_colour(distance_map(101)[round(100 * share)])))
+            painter.drawRoundedRect(QRectF(track.left(), track.top(), max(10.0, share * track.width()), 10), 5, 5)
+        painter.setPen(self._theme.colour("text" if known else "accent"))
+        painter.drawText(row, middle | Qt.AlignmentFlag.AlignRight, _number(telling))
+
+    def _paint_scale(self, painter: QPainter, y: float) -> None:
+        small = QFont(painter.font())
+        small.setPointSizeF(0.85 * small.pointSizeF())
+        painter.setFont(small)
+        painter.setPen(QPen(self._theme.colour("muted"), 1))
+        track = self._track(y)
+        words = QRectF(0, y, track.right(), _SCALE - 4)
+        painter.drawText(words.adjusted(track.left(), 0, 0, 0), Qt.AlignmentFlag.AlignLeft, "the same")
+        painter.drawText(words, Qt.AlignmentFlag.AlignRight, "any two points")
+
+
+def _number(telling: Telling) -> str:
+    if telling.ratio is not None:
+        return f"{telling.ratio:.2f}"
+    if telling.message.startswith("Computing"):
+        return telling.message.rpartition("…")[2].strip() or "…"
+    return "–" if telling.message.startswith("Pick") else "failed" if telling.message else "compute"
