@@ -1,6 +1,6 @@
 """Signatures of points, from the spectra of their shapes."""
 
-from .anisotropic import anisotropic_heat_kernel_signature, anisotropic_heat_kernel_times
+from .anisotropic import angular_contrast, anisotropic_heat_kernel_signature, anisotropic_heat_kernel_times
 from .filters import spectral_kernel, spectral_signature
 from .heat import (
     heat_kernel_signature,
@@ -14,6 +14,7 @@ from .windowed_fourier import heat_window, windowed_fourier_descriptor, windowed
 
 __all__ = [
     "WaveEnergies",
+    "angular_contrast",
     "anisotropic_heat_kernel_signature",
     "anisotropic_heat_kernel_times",
     "geometry_vectors",

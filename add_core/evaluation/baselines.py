@@ -9,6 +9,7 @@ import numpy as np
 from .._check import FloatArray, IntArray, one_of
 from ..correspondence import FunctionalMap, zoomout
 from ..descriptors import (
+    angular_contrast,
     anisotropic_heat_kernel_signature,
     anisotropic_heat_kernel_times,
     geometry_vectors,
@@ -87,8 +88,14 @@ def _waves(family: SpectralFamily) -> FloatArray:
 
 
 def _ahks(family: SpectralFamily) -> FloatArray:
+    """What the angles of every α > 0 depart from their mean, all together weighing as much as the mean itself."""
     values = anisotropic_heat_kernel_signature(family, anisotropic_heat_kernel_times(family, NUMBERS))
-    return _standardised(np.log(np.maximum(values, 1e-300)), family)
+    directed = family.alphas > 0
+    contrast = angular_contrast(values[:, directed], family.alphas[directed])
+    weights = np.ones(contrast.shape[1])
+    weights[: directed.sum()] = np.sqrt((contrast.shape[1] - directed.sum()) / directed.sum())
+    shape = contrast.shape
+    return np.asarray((_standardised(contrast, family).reshape(shape) * weights[:, None]).reshape(len(contrast), -1))
 
 
 def _splines(family: SpectralFamily) -> FloatArray:

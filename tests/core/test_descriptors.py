@@ -5,6 +5,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 from add_core.descriptors import (
+    angular_contrast,
     anisotropic_heat_kernel_signature,
     anisotropic_heat_kernel_times,
     geometry_vectors,
@@ -117,6 +118,31 @@ def test_anisotropic_times_are_shared_by_the_angles_of_one_alpha(family):
     times = anisotropic_heat_kernel_times(family, 8)
     assert_allclose(times[1:], np.tile(times[1], (4, 1)))
     assert (times[1] > times[0]).all()  # heat runs slower at α = 20
+
+
+def test_anisotropic_times_end_where_heat_forgets_its_direction(family):
+    times = anisotropic_heat_kernel_times(family, 8)
+    last = np.log(family.eigenvalues[1:, -1]).mean()
+    assert_allclose(times[1, 0], np.log(10) / np.exp(last))
+    assert times[1, -1] <= 64.001 * times[1, 0]
+    assert_allclose(np.diff(np.log(times)), np.log(times[:, -1:] / times[:, :1]) / 7 * np.ones((1, 7)))
+    lowest = np.log(family.eigenvalues[:, 1])
+    assert (np.log(times[1:, -1]) <= np.log(4 * np.log(10)) - lowest[1:].mean() + 1e-9).all()
+
+
+def test_angular_contrast_is_the_logarithm_in_two_parts():
+    values = np.random.default_rng(0).uniform(0.5, 2.0, size=(9, 5, 3))
+    alphas = np.array([0.0, 20.0, 50.0, 50.0, 20.0])
+    contrast = angular_contrast(values, alphas)
+    assert contrast.shape == (9, 8, 3)
+    assert_allclose(contrast[:, :5] + contrast[:, 5:][:, [0, 1, 2, 2, 1]], np.log(values))
+    assert_allclose(contrast[:, 0], 0.0)
+    assert_allclose(contrast[:, 2] + contrast[:, 3], 0.0, atol=1e-15)
+    assert_allclose(angular_contrast(7.0 * values, alphas)[:, :5], contrast[:, :5])
+    with pytest.raises(ParameterError, match=r"one of alphas for each channel, but they are \(9, 5, 3\) and \(4,\)"):
+        angular_contrast(values, alphas[:4])
+    with pytest.raises(ParameterError, match="values must be at least 0"):
+        angular_contrast(-values, alphas)
 
 
 def test_anisotropic_signatures_of_a_mirror_image_run_backwards(mesh, family):
