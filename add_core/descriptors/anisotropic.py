@@ -45,7 +45,8 @@ def anisotropic_heat_kernel_times(family: SpectralFamily, count: int = 100) -> F
     for alpha in np.unique(family.alphas):
         members = np.flatnonzero(family.alphas == alpha)
         own = np.array([_ends(family[int(channel)]) for channel in members])
-        times[members] = np.geomspace(*np.exp(np.log(own).mean(axis=0)), count)
+        first, last = np.exp(np.log(own).mean(axis=0))
+        times[members] = np.geomspace(float(first), float(last), count)
     return times
 
 
