@@ -43,6 +43,8 @@ from .tasks.disposal import dispose
 from .tasks.identity import ProcessIdentity
 from .tasks.processes import ProcessRunner
 from .tasks.worker import Worker
+from .views.animation import Recorder
+from .views.animation_export import AnimationExport
 from .views.background import BackgroundViews
 from .views.exploring import ExploringViews
 from .views.figure_export import FigureExport
@@ -116,6 +118,8 @@ class Assembly:
         self.window.open_requested.connect(self._open)
         self.saving = Saving(self.window, write_atomically, curves_table, explain)
         self.figures = FigureExport(self.window, self.saving)
+        self.recorder = Recorder(self.window, lambda: self.worker.is_idle)
+        self.animations = AnimationExport(self.window, self.saving, self.recorder, run)
         self.saving.write_script = lambda: script_of(self.session.state, self.results.carried, WRITERS)
 
     def _keep(self, read: Read | None, session: Path | None) -> None:
@@ -215,6 +219,7 @@ class Assembly:
 
     def stop(self) -> None:
         """End the thread and close the window."""
+        self.recorder.cancel()
         self.keeping.end()
         self._curve_delay.cancel()
         self.worker.stop()

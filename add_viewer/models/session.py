@@ -229,6 +229,10 @@ class Session:
         """Remove every pick on every shape."""
         self._apply("clear", replace(self.state, picks=()))
 
+    def preview(self, diffusion: Diffusion) -> None:
+        """Show another diffusion for a while, outside of history; whoever begins this ends it with the former one."""
+        self._replace(replace(self.state, diffusion=diffusion))
+
     def restore(self, state: SessionState) -> None:
         """Put a session that was kept in the place of this one; undo brings this one back."""
         self._apply("restore", state)

@@ -10,7 +10,7 @@ from typing import Any
 
 from PySide6.QtCore import QObject, Qt, QThread, Signal, Slot
 
-LANES = ("open", "kernel", "fields", "answers", "insights", "directions", "curves")
+LANES = ("open", "kernel", "fields", "answers", "insights", "directions", "curves", "export")
 """In the order in which waiting work is taken up."""
 
 _log = logging.getLogger(__name__)
@@ -36,6 +36,7 @@ class Worker(QThread):
         self._waiting: dict[str, list[_Job]] = {lane: [] for lane in LANES}
         self._condition = threading.Condition()
         self._stopping = False
+        self._unanswered = 0
         self._answered.connect(self._answer, Qt.ConnectionType.QueuedConnection)
 
     def submit(
@@ -53,11 +54,18 @@ class Worker(QThread):
         """
         with self._condition:
             if not queue:
+                self._unanswered -= len(self._waiting[lane])
                 self._waiting[lane].clear()
+            self._unanswered += 1
             self._waiting[lane].append(_Job(work, done, failed))
             self._condition.notify()
         if not self.isRunning():
             self.start(QThread.Priority.LowPriority)
+
+    @property
+    def is_idle(self) -> bool:
+        """Whether everything that was asked for has been answered."""
+        return self._unanswered == 0
 
     def stop(self) -> None:
         """Forget what waits, let the running job end, and end the thread."""
@@ -90,4 +98,5 @@ class Worker(QThread):
     def _answer(self, answer: tuple[Callable[[Any], None], Any]) -> None:
         if not self._stopping:
             callback, value = answer
+            self._unanswered -= 1
             callback(value)

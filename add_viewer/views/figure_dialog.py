@@ -13,7 +13,6 @@ from PySide6.QtWidgets import (
     QDialog,
     QDialogButtonBox,
     QFileDialog,
-    QFormLayout,
     QFrame,
     QHBoxLayout,
     QLabel,
@@ -22,6 +21,7 @@ from PySide6.QtWidgets import (
 )
 
 from .figure_page import PageChoice
+from .forms import form_of
 from .theme import GRID
 
 WIDTHS = {85.0: "85 mm, one column", 120.0: "120 mm", 180.0: "180 mm, two columns", 254.0: "254 mm, a slide"}
@@ -69,14 +69,9 @@ class FigureDialog(QDialog):
         buttons.button(QDialogButtonBox.StandardButton.Save).setText("Save…")
         buttons.accepted.connect(self.accept)
         buttons.rejected.connect(self.reject)
-        form = QFormLayout()
-        form.setHorizontalSpacing(2 * GRID)
-        form.setVerticalSpacing(GRID)
-        form.addRow("Width", self.width_box)
-        form.addRow("Shapes", self.dpi_box)
-        form.addRow("With", self.names)
-        form.addRow("", self.bars)
-        form.addRow("", self.curves)
+        form = form_of([("Width", self.width_box), ("Shapes", self.dpi_box), ("With", self.names)])
+        for switch in (self.bars, self.curves):
+            form.addRow("", switch)
         self.preview.setFixedSize(*_PREVIEW)
         self.preview.setAlignment(Qt.AlignmentFlag.AlignCenter)
         self.preview.setFrameShape(QFrame.Shape.StyledPanel)
@@ -85,8 +80,9 @@ class FigureDialog(QDialog):
         note.setProperty("role", "muted")
         note.setWordWrap(True)
         left = QVBoxLayout()
-        for part in (form, self.size_label, note):
-            left.addLayout(part) if isinstance(part, QFormLayout) else left.addWidget(part)
+        left.addLayout(form)
+        left.addWidget(self.size_label)
+        left.addWidget(note)
         left.addStretch(1)
         left.addWidget(buttons)
         row = QHBoxLayout(self)

@@ -40,7 +40,7 @@ from .start_page import Gallery, StartPage
 from .theme import GRID, apply_theme, theme_of
 
 TITLE = "Anisotropic Diffusion Descriptors"
-NEED_A_SHAPE = ("close", "script", "figure", "screenshot")
+NEED_A_SHAPE = ("close", "script", "figure", "animation", "screenshot")
 """Actions of the menus that need an open shape, beside those of its view."""
 
 
@@ -91,7 +91,7 @@ class MainWindow(QMainWindow):
         self.pages.addWidget(self.start)
         self.pages.addWidget(self.scene)
         centre = QWidget()
-        column = QVBoxLayout(centre)
+        column = self._column = QVBoxLayout(centre)
         column.setContentsMargins(0, 0, 0, 0)
         column.setSpacing(0)
         column.addWidget(self.message)
@@ -214,6 +214,11 @@ class MainWindow(QMainWindow):
         parts += [self.aids, *self._added]
         for part in parts:
             part.show_theme(theme)
+
+    def add_above(self, bar: QWidget) -> None:
+        """Put a bar that comes and goes above the view; it follows the theme."""
+        self._column.insertWidget(0, bar)
+        self.add_part(bar)
 
     def add_part(self, part: Any) -> None:
         """Let `part`, which was put into the window later, follow the theme."""

@@ -45,6 +45,9 @@ FILE = (
         "mdi6.file-image-outline",
         "Views and curves as PDF, SVG or PNG",
     ),
+    Entry(
+        "animation", "Export &animation…", "", "mdi6.movie-open-outline", "A turntable or a sweep of θ or t as a GIF"
+    ),
     Entry("curves", "&Export curves…", "Ctrl+E", "mdi6.chart-line", "Save the curves as PNG, SVG, PDF or CSV"),
     Entry("", ""),
     Entry("close", "&Close shape", "Ctrl+W", "mdi6.close", "Close the shown shape"),

@@ -26,7 +26,7 @@ class Saving:
 
     def __init__(self, window: MainWindow, write_atomically, curves_table, explain) -> None:  # type: ignore[no-untyped-def]
         self._window = window
-        self._write, self._table, self._explain = write_atomically, curves_table, explain
+        self.write_whole, self._table, self.explain = write_atomically, curves_table, explain
         window.menus.on("screenshot", self.ask_picture)
         window.menus.on("curves", self.ask_curves)
         window.menus.on("open", self.ask_open)
@@ -83,10 +83,14 @@ class Saving:
     def write(self, path: Path, write) -> None:  # type: ignore[no-untyped-def]
         """Let `write` fill the file at `path`, whole or not at all, and say what happened."""
         try:
-            self._write(path, write)
+            self.write_whole(path, write)
         except OSError as error:
-            self._window.results.noticed.emit(Notice(f"{path.name} was not saved: {self._explain(error)}"))
+            self._window.results.noticed.emit(Notice(f"{path.name} was not saved: {self.explain(error)}"))
             return
+        self.tell_saved(path)
+
+    def tell_saved(self, path: Path) -> None:
+        """Say where it is, and begin there next time."""
         self._window.settings.folder = str(path.parent)
         self._window.statusBar().showMessage(f"Saved {path}", 6000)
 

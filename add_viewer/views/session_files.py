@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol
 
 from PySide6.QtCore import QByteArray
-from PySide6.QtWidgets import QFileDialog, QVBoxLayout
+from PySide6.QtWidgets import QFileDialog
 
 from ..models.results import Notice
 from ..models.session_file import ENDING, CameraPlace, KeptSession
@@ -47,11 +47,7 @@ class SessionFiles:
         self._window, self._keeping, self._explain = window, keeping, explain
         self._layout = ""
         self.banner = RestoreBanner()
-        centre = window.centralWidget()
-        column = centre.layout() if centre is not None else None
-        assert isinstance(column, QVBoxLayout)
-        column.insertWidget(0, self.banner)
-        window.add_part(self.banner)
+        window.add_above(self.banner)
         window.scene.camera_moved.connect(keeping.remember_soon)
         for name, do in (
             ("save_session", self.save),

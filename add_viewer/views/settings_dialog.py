@@ -4,16 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
 
-from PySide6.QtCore import QSignalBlocker, Qt
+from PySide6.QtCore import QSignalBlocker
 from PySide6.QtWidgets import (
     QCheckBox,
     QComboBox,
     QDialog,
     QDialogButtonBox,
     QDoubleSpinBox,
-    QFormLayout,
     QHBoxLayout,
     QLabel,
     QPushButton,
@@ -22,7 +20,10 @@ from PySide6.QtWidgets import (
 )
 
 from ..models.display import Display
+from .forms import form_of
 from .theme import GRID
+
+_WORDS = 16 * GRID
 
 
 @dataclass(frozen=True)
@@ -90,7 +91,7 @@ class SettingsDialog(QDialog):
         return box
 
     def _build(self) -> None:
-        looks = _form({LOOKS[name][0]: box for name, box in self.choices.items()})
+        looks = form_of([(LOOKS[name][0], box) for name, box in self.choices.items()], _WORDS)
         self.autosave.setToolTip("In your own folder, so that it can be restored after a crash.")
         self.limit.setRange(0.5, 1000.0)
         self.limit.setDecimals(1)
@@ -104,7 +105,7 @@ class SettingsDialog(QDialog):
         room.setSpacing(GRID)
         for widget in (self.limit, self.used, self.clear):
             room.addWidget(widget, int(widget is self.used))
-        kept = _form({"Session": self.autosave, "Spectra on disk": room})
+        kept = form_of([("Session", self.autosave), ("Spectra on disk", room)], _WORDS)
         ways_back = QHBoxLayout()
         ways_back.addWidget(self.panels_button)
         ways_back.addWidget(self.all_button)
@@ -163,16 +164,3 @@ class SettingsDialog(QDialog):
 
 DEFAULT_LIMIT = 8.0
 """Gigabytes of spectra, as the core has it."""
-
-
-def _form(rows: dict[str, Any]) -> QFormLayout:
-    form = QFormLayout()
-    form.setHorizontalSpacing(2 * GRID)
-    form.setVerticalSpacing(GRID)
-    form.setLabelAlignment(Qt.AlignmentFlag.AlignLeft)
-    form.setFieldGrowthPolicy(QFormLayout.FieldGrowthPolicy.AllNonFixedFieldsGrow)
-    for words, field in rows.items():
-        label = QLabel(words)
-        label.setFixedSize(16 * GRID, int(3.5 * GRID))
-        form.addRow(label, field)
-    return form

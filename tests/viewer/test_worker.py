@@ -60,3 +60,15 @@ def test_no_answer_comes_after_the_end(qapp, qtbot):
     qtbot.wait(50)
     assert heard == []
     assert not worker.isRunning()
+
+
+def test_it_is_idle_once_everything_has_been_answered(worker, qtbot):
+    answers = []
+    assert worker.is_idle
+    for number in range(3):  # the later two replace what waits
+        worker.submit("kernel", lambda number=number: number, done=answers.append, failed=answers.append)
+        assert not worker.is_idle
+    worker.submit("curves", lambda: 1 / 0, done=answers.append, failed=answers.append)
+    qtbot.waitUntil(lambda: worker.is_idle, timeout=5000)
+    assert 2 in answers
+    assert isinstance(answers[-1], ZeroDivisionError)
