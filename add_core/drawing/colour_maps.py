@@ -19,13 +19,16 @@ BLUE, RED = 255.0, 32.0
 
 @cache
 def distance_map(size: int = 256) -> FloatArray:
-    """(size, 3): cold and dark where near, through pale, to hot where far, as in the paper's Figure 6."""
+    """(size, 3): cold where near, through pale, to hot where far, as in the paper's Figure 6.
+
+    Both ends keep half of the light: most of a shape may be near, and its form must still show.
+    """
     return _through_lab(
         size,
-        at=[0.0, 0.22, 0.48, 0.74, 1.0],
-        lightness=[0.30, 0.52, 0.90, 0.72, 0.52],
-        chroma=[0.13, 0.125, 0.035, 0.125, 0.165],
-        hue=[268.0, 248.0, 130.0, 62.0, 30.0],
+        at=[0.0, 0.25, 0.50, 0.75, 1.0],
+        lightness=[0.46, 0.62, 0.90, 0.74, 0.56],
+        chroma=[0.150, 0.125, 0.035, 0.125, 0.165],
+        hue=[260.0, 245.0, 130.0, 62.0, 32.0],
     )
 
 
