@@ -14,7 +14,7 @@ class Cast:
     hero : stands for the kernels. second : the hero's shape in another pose. source : where heat is dropped.
     points : three for signatures, each with a word for it. reference_point : for distance maps.
     audience : shapes whose distance maps are drawn, with the variant of each. reference, targets : of colour transfer.
-    contests : collections whose test shapes are matched; clouds : whether clouds of the first are matched too.
+    contests : collections whose test shapes are matched; learned : trained models, by name, that know such shapes.
     """
 
     collection: Collection
@@ -27,6 +27,7 @@ class Cast:
     reference: int
     targets: tuple[int, ...]
     contests: tuple[Collection, ...] = field(default=())
+    learned: tuple[str, ...] = ()
 
 
 def people() -> Cast:
@@ -42,4 +43,5 @@ def people() -> Cast:
         reference=83,
         targets=(87, 84, 89, 92, 96),
         contests=(humans(), poses()),
+        learned=("humans-madd3",),
     )

@@ -18,6 +18,7 @@ INK, QUIET, RULE = "#22252a", "#6b7078", "#d9dade"
 TYPE: Any = {
     "font.family": "sans-serif",
     "font.size": 9.0,
+    "mathtext.fontset": "stix",
     "axes.titlesize": 10.0,
     "axes.titleweight": "regular",
     "axes.labelsize": 9.0,

@@ -8,7 +8,9 @@ from functools import cache
 from matplotlib.figure import Figure
 
 from .._check import IntArray
+from ..contest import Describer
 from ..drawing.camera import Camera
+from ..evaluation.samples import Sample, sample
 from ..geometry import PointCloud, TriangleMesh, normalize, subsample
 from ..io import Collection
 from ..operators import AnisotropicLaplacian
@@ -28,11 +30,13 @@ class Studio:
     def __init__(self, cast: Cast, quality: Quality) -> None:
         """`step` may be replaced: it is called as step(done, total) along the way; what it raises ends the work."""
         self.cast, self.quality = cast, quality
-        self.skies = Skies(quality.sky)
+        self.skies, self.describer = Skies(quality.sky), Describer(angles=quality.angles, count=quality.eigenpairs)
         self.step: Step = lambda done, total: None
         self._done = self._total = 0
         self.person = cache(self._person)
         self.flow = cache(self._flow)
+        self.sample = cache(self._sample)
+        self.unit = cache(self._unit)
         self.cloud = cache(self._cloud)
 
     def expect(self, steps: int) -> None:
@@ -50,6 +54,14 @@ class Studio:
         shape = normalize(self.cast.collection[index])
         assert isinstance(shape, TriangleMesh)
         return shape
+
+    def _sample(self, index: int, variant: str) -> Sample:
+        """A shape of the cast's collection in one of its variants, in the collection's own unit."""
+        return sample(self.cast.collection, index, variant)
+
+    def _unit(self, of: Sample) -> TriangleMesh | PointCloud:
+        """A sample's shape at unit geodesic diameter."""
+        return normalize(of.shape)
 
     def _cloud(self, index: int) -> tuple[PointCloud, IntArray]:
         """Farthest points of `person`, and the vertex (n,) that each of them was."""

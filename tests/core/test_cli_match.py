@@ -7,7 +7,7 @@ import pytest
 from numpy.testing import assert_array_equal
 
 from add_core.cli import main
-from add_core.cli.evaluate import chosen_pairs
+from add_core.contest import chosen_pairs
 from add_core.geometry import TriangleMesh
 from add_core.geometry.shapes import sphere
 from add_core.io import humans, load_fields, save_shape

@@ -14,7 +14,7 @@ from add_core.geometry import TriangleMesh
 from add_core.geometry.shapes import ellipsoid
 from add_core.io import Collection
 
-TINY = Quality("draft", 30, 1, 6, eigenpairs=20, angles=2, cloud_points=150, pairs=1, queries=40)
+TINY = Quality("draft", 30, 1, 6, eigenpairs=40, angles=2, cloud_points=150, pairs=1, queries=40)
 EGG = ellipsoid(0.7, 0.5, 1.0, subdivisions=2)
 MIRROR = np.array([np.abs(EGG.vertices - v * [-1, 1, 1]).sum(axis=1).argmin() for v in EGG.vertices])
 
