@@ -4,15 +4,13 @@ from __future__ import annotations
 
 import json
 import logging
-import os
 import shutil
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-import platformdirs
-
 from ..models.jobs import Job, JobRequest
+from .data_folder import data_folder
 from .exporting import write_atomically
 
 FORMAT = 1
@@ -23,10 +21,8 @@ _log = logging.getLogger(__name__)
 
 
 def default_home() -> Path:
-    """Where jobs live: in $ADD_DATA_DIR, or where the platform keeps a person's data."""
-    chosen = os.environ.get("ADD_DATA_DIR")
-    root = Path(chosen) if chosen else platformdirs.user_data_path("anisotropic-diffusion-descriptors", False)
-    return root.absolute() / "jobs"
+    """Where jobs live."""
+    return data_folder() / "jobs"
 
 
 @dataclass(frozen=True)

@@ -10,8 +10,6 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-import platformdirs
-
 from ..models.results import Notice, Results
 from ..models.session import Session
 from ..models.session_file import (
@@ -23,6 +21,7 @@ from ..models.session_file import (
     session_text,
 )
 from ..models.shapes import OpenShape
+from .data_folder import data_folder
 from .exporting import write_atomically
 from .opening import Read, read_shape
 from .running import Later, Run, explain
@@ -65,8 +64,8 @@ class _Opened:
 
 
 def sessions_home() -> Path:
-    """Where this platform keeps a person's data."""
-    return platformdirs.user_data_path("anisotropic-diffusion-descriptors", False) / "sessions"
+    """Where running sessions are kept."""
+    return data_folder() / "sessions"
 
 
 class KeepingController:

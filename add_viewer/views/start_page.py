@@ -16,6 +16,7 @@ from PySide6.QtWidgets import (
     QListWidget,
     QListWidgetItem,
     QPushButton,
+    QSizePolicy,
     QToolButton,
     QVBoxLayout,
     QWidget,
@@ -57,6 +58,9 @@ class StartPage(QWidget):
         self.open_button, self.back_button = QPushButton("Open file…"), QPushButton()
         self.back_button.clicked.connect(self.left)
         self._recent_box = QVBoxLayout()
+        self.setSizePolicy(
+            QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Ignored
+        )  # hidden, it must not hold the window wide
         self._lay_out()
         self.show_gallery(0)
 
