@@ -94,7 +94,9 @@ def command(
 ) -> None:
     """A signature of every vertex of SHAPE, as a field of the shape in the file written.
 
-    MODEL is a file of `add-core train`, or the name of a shipped one such as humans-madd3; it knows all options itself.
+    MODEL is a file or a folder of `add-core train`, or the name of a shipped one such as humans-madd3; it knows all
+    options itself. Of a correspondence network the field is the reference's vertex that each vertex most probably is,
+    and how probable that is.
     hks, si-hks, wks and wft are isotropic: they cannot tell left from right. ahks and geometry-vectors have `numbers`
     values for each α and angle, angle after angle. --compared adds α = 0 to them and has numbers of its own, those of
     `add-core match` and `evaluate`.
@@ -138,12 +140,16 @@ def _learned(names: tuple[str, ...], output: Path, *, as_json: bool) -> None:
 
     model, shape = load_model(names[0]), open_shape(names[1])
     with progress("Spectra", as_json=as_json) as advance:
-        values = model.describe(shape, progress=advance)
-    save_shape(shape, output, fields={"learned": values})
+        if model.network.is_classifier:
+            found = model.match(shape, progress=advance)
+            fields = {"reference_vertex": found.vertices, "probability": found.probabilities}
+        else:
+            fields = {"learned": model.describe(shape, progress=advance)}
+    save_shape(shape, output, fields=fields)
     facts = {
         "descriptor": names[0],
-        "vertices": len(values),
-        "numbers": values.shape[1],
+        "vertices": shape.vertex_count,
+        "numbers": sum(values[0].size for values in fields.values()),
         "unit of length": options.length_unit(False),
         "output": str(output),
     }

@@ -22,6 +22,7 @@ COLLECTIONS = {"humans": humans, "poses": poses, "dogs": dogs}
 
 
 @click.command("evaluate")
+@click.argument("models", metavar="[RUN|MODEL]...", nargs=-1)
 @click.option("--data", type=click.Choice(list(COLLECTIONS)), default="humans", show_default=True)
 @click.option(
     "--variant",
@@ -32,8 +33,8 @@ COLLECTIONS = {"humans": humans, "poses": poses, "dogs": dogs}
 )
 @click.option(
     "--descriptors",
-    default="hks,wks,ahks",
-    show_default=True,
+    default=None,
+    show_default="hks,wks,ahks without RUN",
     help=f"Some of {', '.join(BASELINES)}, {MAPS} "
     f"(functional maps), {FOREST} (random forest) or models of add-core train, with commas; "
     f"{REFINED} after one refines its matches.",
@@ -48,9 +49,10 @@ COLLECTIONS = {"humans": humans, "poses": poses, "dogs": dogs}
 @click.option("-o", "--output", type=click.Path(path_type=Path, file_okay=False), help="Folder for the report.")
 @click.option("--json", "as_json", is_flag=True, help="JSON: the result on stdout, progress on stderr, a line each.")
 def command(
+    models: tuple[str, ...],
     data: str,
     variant: str,
-    descriptors: str,
+    descriptors: str | None,
     protocol: str,
     pairs: int,
     seed: int,
@@ -63,10 +65,13 @@ def command(
 ) -> None:
     """Match test shapes by descriptors, and compare with the truth: CMC, ROC, Princeton and P(right side).
 
+    RUN is the folder of a training, or a model by its file or name; models may be among the --descriptors too. Of
+    correspondence networks the matches count: points are near each other where their places on the reference are.
+
     Each shape is scaled to unit geodesic diameter; spectra are kept in the cache. With -o, a folder is written with
     index.html, curves.svg, scores.csv, curves.csv and scores.json.
     """
-    methods = _methods(descriptors)
+    methods = _methods(models, descriptors)
     if data != humans().title and any(method.startswith(FOREST) for method in methods):
         raise ParameterError(f"descriptors must not name {FOREST} for {data}: it is trained on the shipped people.")
     protocols = PROTOCOLS if protocol == "all" else (protocol,)
@@ -93,8 +98,9 @@ def command(
         click.echo(table(scores))
 
 
-def _methods(descriptors: str) -> list[str]:
-    names = [name.strip() for name in descriptors.split(",") if name.strip()]
+def _methods(models: tuple[str, ...], descriptors: str | None) -> list[str]:
+    listed = ("" if models else "hks,wks,ahks") if descriptors is None else descriptors
+    names = [*models, *(name.strip() for name in listed.split(",") if name.strip())]
     if not names:
         raise ParameterError("descriptors must name at least one, but the list is empty.")
     return list(dict.fromkeys(names))

@@ -171,7 +171,7 @@ def _raw(
         from ..learning import load_model
 
         model = load_model(descriptor)
-        one, two = (np.asarray(model.describe(shape), dtype=np.float64) for shape in shapes)
+        one, two = (np.asarray(model.embed(shape), dtype=np.float64) for shape in shapes)
     return nearest_matches(two, one)
 
 

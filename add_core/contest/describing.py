@@ -49,6 +49,6 @@ def why_not(name: str) -> str | None:
             return f"it needs {package}, which is not installed; run: pip install torch safetensors"
     from ..learning import shipped_models
 
-    if name in shipped_models() or Path(name).is_file():
+    if name in shipped_models() or Path(name).is_file() or (Path(name) / "model.safetensors").is_file():
         return None
     return f"there is no trained model {name}"

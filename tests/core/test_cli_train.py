@@ -51,6 +51,26 @@ def test_a_folder_of_shapes_makes_a_model_that_describes_a_shape(capsys, folder,
     assert load_fields(described)["learned"].shape == (162, 16)
 
 
+def test_a_correspondence_network_describes_a_shape_by_its_reference(capsys, folder, tmp_path):
+    small = ["--angles", "2", "--count", "30", "--splines", "8", "--steps", "2", "--pairs", "16"]
+    status, _, _ = run(capsys, "train", "--architecture", "mADD4", "--data", folder, "-o", tmp_path / "run", *small)
+    described = tmp_path / "described.ply"
+    assert (status, run(capsys, "describe", tmp_path / "run", folder / "body0.ply", "-o", described)[0]) == (0, 0)
+    fields = load_fields(described)
+    assert fields["reference_vertex"].shape == fields["probability"].shape == (162,)
+    assert fields["reference_vertex"].max() < 162
+
+
+def test_a_training_is_evaluated_by_its_folder(capsys, folder, tmp_path, monkeypatch):
+    monkeypatch.setenv("ADD_CACHE_DIR", str(tmp_path / "cache"))
+    run(capsys, "train", "--data", folder, "-o", tmp_path / "run", *SMALL)
+    asked = ("--pairs", 1, "--queries", 60, "--variant", "cloud", "--protocol", "cmc", "--json")
+    status, out, _ = run(capsys, "evaluate", tmp_path / "run", *asked)
+    (scores,) = [value for name, value in json.loads(out.splitlines()[-1]).items() if name != "event"]
+    assert status == 0
+    assert 0.0 <= scores["CMC@10 asymmetric"] <= 1.0
+
+
 def test_training_again_finds_the_work_done(capsys, folder, tmp_path):
     arguments = ["train", "--data", folder, "-o", tmp_path / "run", *SMALL]
     assert run(capsys, *arguments)[0] == 0
@@ -67,7 +87,10 @@ def test_training_again_finds_the_work_done(capsys, folder, tmp_path):
         (["train", "--data", "unicorns", "-o", "run"], "there is no folder 'unicorns'"),
         (["train", "--data", "humans", "-o", "run", "--steps", "0"], "steps must be from 1"),
         (["train", "--data", "humans", "-o", "run", "--angles", "0"], "angles must be from 1"),
-        (["describe", "unicorns-madd3", "humans:0", "-o", "x.ply"], "must be a file or a shipped model"),
+        (
+            ["describe", "unicorns-madd3", "humans:0", "-o", "x.ply"],
+            "the folder of a training or a shipped model",
+        ),
         (["describe", "a", "b", "c", "-o", "x.ply"], "there are 3 names"),
     ],
 )

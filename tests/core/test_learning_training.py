@@ -81,7 +81,7 @@ def test_mirror_images_are_drawn_and_named():
     sampler = PairSampler([numbered(np.arange(40)), numbered(np.arange(40))], pairs=32, seed=0, symmetry=symmetry)
     batch = sampler.batch(0)
     known = batch.mirror >= 0
-    assert known[:16].all()
+    assert known[:12].all()
     assert_array_equal(batch.places[batch.mirror[known]], symmetry[batch.places[known]])
 
 
@@ -113,7 +113,7 @@ def test_negatives_are_mirrored_random_and_the_hardest_and_never_the_place_itsel
     distances = torch.rand(16, 16, generator=torch.Generator().manual_seed(0))
     row, column = (index.numpy() for index in negative_pairs(batch, distances, hard=True))
     assert (batch.places[row] != batch.places[column]).all()
-    assert {(r, batch.mirror[r]) for r in range(8)} <= set(zip(row.tolist(), column.tolist(), strict=True))
+    assert {(r, batch.mirror[r]) for r in range(6)} <= set(zip(row.tolist(), column.tolist(), strict=True))
     hardest = distances.masked_fill(torch.from_numpy(batch.places[:, None] == batch.places), 9).argmin(1).numpy()
     assert_array_equal(column[-16:], hardest)
 
@@ -240,6 +240,33 @@ def test_a_killed_run_ends_with_the_same_weights(shapes, tmp_path):
     assert (tmp_path / "killed" / CHECKPOINT).exists()
     assert load_model(tmp_path / "killed" / MODEL).card["step"] == 8
     for name, value in weights(run(tmp_path / "killed", shapes)).items():
+        assert_array_equal(value, whole[name])
+
+
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="kills forked copies of this process")
+@pytest.mark.filterwarnings("ignore:.*fork.*:DeprecationWarning")
+def test_ten_kills_at_random_moments_change_no_bit(shapes, tmp_path):
+    """Killed within steps, validations or writes, wherever the moment falls, and each time gone on with."""
+    settings = replace(QUICK, steps=150, checkpoint_every=3, validate_every=10)
+    whole = weights(run(tmp_path / "whole", shapes, settings))
+    draw, ends = np.random.default_rng(0), []
+    for _ in range(10):
+        reading, writing = os.pipe()
+        child = os.fork()
+        if not child:
+            try:
+                run(tmp_path / "killed", shapes, settings, report=lambda event, pipe=writing: os.write(pipe, b"."))
+            finally:
+                os._exit(0)
+        os.close(writing)
+        for _ in range(draw.integers(1, 16)):
+            os.read(reading, 1)
+        time.sleep(draw.uniform(0, 0.02))
+        os.kill(child, signal.SIGKILL)
+        ends.append(os.WTERMSIG(os.waitpid(child, 0)[1]))
+        os.close(reading)
+    assert ends == [signal.SIGKILL] * 10
+    for name, value in weights(run(tmp_path / "killed", shapes, settings)).items():
         assert_array_equal(value, whole[name])
 
 
