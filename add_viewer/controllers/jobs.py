@@ -118,6 +118,11 @@ class JobsController:
         self._running.clear()
         self._processes.stop()
 
+    def process_of(self, id: str) -> Stamp:
+        """The process that runs a job; pid 0 if none does."""
+        running = self._running.get(id)
+        return Stamp() if running is None else Stamp.of(running.process.identity)
+
     def log(self, id: str) -> str:
         """What a job's command said, for a person."""
         return log_of(self._jobs[id].request.folder) if id in self._jobs else ""
@@ -237,10 +242,8 @@ class JobsController:
         self._jobs.put(job)
 
     def _keep(self, job: Job) -> None:
-        running = self._running.get(job.id)
-        process = Stamp() if running is None else Stamp.of(running.process.identity)
         try:
-            keep(KeptJob(job, process, self._window))
+            keep(KeptJob(job, self.process_of(job.id), self._window))
         except OSError as error:
             self._report(f"The job {job.request.title} cannot be kept on disk: {explain(error)}")
 

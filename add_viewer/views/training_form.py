@@ -10,7 +10,6 @@ from PySide6.QtWidgets import (
     QCheckBox,
     QComboBox,
     QDialog,
-    QDialogButtonBox,
     QFileDialog,
     QGridLayout,
     QHBoxLayout,
@@ -46,6 +45,7 @@ class TrainingForm(QDialog):
         self.loss, self.unit = QComboBox(), QComboBox()
         self.folder, self.browse = QLineEdit(), QPushButton("Browse…")
         self.isotropic = QCheckBox("Isotropic twin")
+        self.start_button, self.cancel_button = QPushButton("Start training"), QPushButton("Cancel")
         numbers = ("shapes", "angles", "eigenpairs", "budget", "seed")
         self.numbers = {name: NumberField(show_as=_count, step=lambda value, step: value + step) for name in numbers}
         self._help: dict[str, QLabel] = {}
@@ -62,17 +62,20 @@ class TrainingForm(QDialog):
         for effort in EFFORTS:
             self.effort.addItem(effort.title, effort)
         self.unit.addItems(["steps", "minutes"])
-        self.start_button = QPushButton("Start training")
+        buttons = QHBoxLayout()
+        buttons.setSpacing(GRID)
+        buttons.addStretch(1)
         self.start_button.setProperty("primary", True)
-        buttons = QDialogButtonBox(QDialogButtonBox.StandardButton.Cancel)
-        buttons.addButton(self.start_button, QDialogButtonBox.ButtonRole.AcceptRole)
-        buttons.accepted.connect(self._submit)
-        buttons.rejected.connect(self.reject)
+        for button, do in ((self.cancel_button, self.reject), (self.start_button, self._submit)):
+            button.clicked.connect(do)
+            buttons.addWidget(button)
+        for button in (self.browse, self.cancel_button, self.start_button):
+            button.setAutoDefault(False)  # Enter in a field enters what was typed
         layout = QVBoxLayout(self)
         layout.setContentsMargins(3 * GRID, 2 * GRID, 3 * GRID, 2 * GRID)
         layout.setSpacing(2 * GRID)
         layout.addLayout(self._rows())
-        layout.addWidget(buttons)
+        layout.addLayout(buttons)
 
     def _rows(self) -> QGridLayout:
         grid = QGridLayout()

@@ -183,6 +183,7 @@ class TrainingPanel(QWidget):
         self.form = TrainingForm(self._latest_request, self)
         self.form.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         self.form.submitted.connect(self._submit)
+        self.form.finished.connect(lambda _result: setattr(self, "form", None))
         self.form.open()
 
     def _submit(self, request: TrainingRequest) -> None:
