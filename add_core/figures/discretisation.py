@@ -8,6 +8,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.collections import PolyCollection
 from matplotlib.figure import Figure
+from matplotlib.patheffects import withStroke
 
 from .._check import FloatArray, IntArray
 from ..drawing.camera import Camera
@@ -168,7 +169,8 @@ def _arrow(
         across, up = _unit(end - start)
         # Beyond the tip, but above a level arrow: there its neighbour begins.
         x, y = (end - (0.12 * length, -0.22 * length)) if abs(up) < 0.3 else end + 0.3 * length * np.array([across, up])
-        axes.text(x, y, f"${name}$", ha="center", va="center", fontsize=13, color=colour, zorder=6)
+        halo = [withStroke(linewidth=3.5, foreground="#f3f2f0")]
+        axes.text(x, y, f"${name}$", ha="center", va="center", fontsize=13, color=colour, zorder=6, path_effects=halo)
 
 
 def _face(mesh: TriangleMesh, corners: IntArray) -> int:

@@ -25,7 +25,7 @@ class Quality:
     queries: int | None
 
 
-QUALITIES = {
+QUALITIES: dict[str, Quality] = {
     "draft": Quality("draft", 100, 2, 24, eigenpairs=100, angles=8, cloud_points=4000, pairs=2, queries=500),
-    "full": Quality("full", 220, 3, 96, eigenpairs=300, angles=16, cloud_points=4000, pairs=6, queries=2000),
+    "full": Quality("full", 220, 3, 96, eigenpairs=300, angles=16, cloud_points=4000, pairs=4, queries=1000),
 }
