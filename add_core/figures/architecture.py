@@ -227,6 +227,6 @@ def _caption(network: _Network) -> str:
     return (
         f"From spectra to a descriptor. Left: one eigenfunction (k = {EIGENFUNCTION}) of the anisotropic Laplacian at "
         f"θ_1, θ_2 and θ_L. Then three filters, {network.title}: {ends}. Their responses at every point, one row a "
-        f"direction, negative ones cut by ReLU (ξ); all {network.count} channels are stacked (SC) and taken to 16 numbers by fully "
-        "connected layers, here the descriptor of the point that is marked in Figure 1."
+        f"direction, negative ones cut by ReLU (ξ); all {network.count} channels are stacked (SC) and taken to 16 "
+        "numbers by fully connected layers, here the descriptor of the point that is marked in Figure 1."
     )
