@@ -12,6 +12,7 @@ import click
 
 from ..errors import ParameterError
 from . import options
+from .application import FAILURE, SUCCESS
 from .reporting import progress, result
 
 if TYPE_CHECKING:
@@ -46,8 +47,23 @@ class _Numbers(click.ParamType[tuple[int, ...]]):
 )
 @click.option("--format", "image", type=click.Choice(("png", "pdf", "svg")), default="png", show_default=True)
 @click.option("--again", is_flag=True, help="Draw figures again that the folder holds already.")
+@click.option(
+    "--train",
+    type=float,
+    metavar="MINUTES",
+    help="Train the networks of Figure 8 so long each (with few bodies, in DIR/models). By default a shipped report "
+    "of longer training is drawn.",
+)
 @options.as_json
-def command(output: Path, only: tuple[int, ...] | None, quality: str, image: str, again: bool, as_json: bool) -> None:
+def command(
+    output: Path,
+    only: tuple[int, ...] | None,
+    quality: str,
+    image: str,
+    again: bool,
+    train: float | None,
+    as_json: bool,
+) -> int:
     """Draw the paper's figures anew from the shipped shapes, with captions and what differs, in index.html.
 
     What the folder holds already in this quality and format is kept, so the same command goes on where it was stopped.
@@ -66,20 +82,31 @@ def command(output: Path, only: tuple[int, ...] | None, quality: str, image: str
         quality=quality,
         image=image,
         again=again,
+        train=train,
         command="add-core " + shlex.join(sys.argv[1:]),
         watch=lambda figure: progress(f"Figure {figure.number}", as_json=as_json),
         finished=None if as_json else _say,
     )
     page = str(output / "index.html")
     if as_json:
-        result({"figures": [asdict(one.entry) | {"kept": one.kept} for one in outcomes], "page": page}, as_json=True)
+        result({"figures": [_facts(one) for one in outcomes], "page": page}, as_json=True)
     else:
         click.echo(f"Open {page}")
+    return SUCCESS if any(one.entry is not None for one in outcomes) else FAILURE
+
+
+def _facts(outcome: Outcome) -> dict[str, Any]:
+    if outcome.entry is None:
+        return {"number": outcome.figure.number, "drawn": False, "reason": outcome.reason}
+    return asdict(outcome.entry) | {"drawn": True, "kept": outcome.kept}
 
 
 def _say(outcome: Outcome) -> None:
-    entry = outcome.entry
-    time = "kept; --again draws it anew" if outcome.kept else f"{entry.seconds:.0f} s"
-    click.echo(f"Figure {entry.number:>2}  {entry.files[0]}  {time}")
-    for line in entry.missing:
+    name = f"Figure {outcome.figure.number:>2}"
+    if outcome.entry is None:
+        click.echo(f"{name}  not drawn: {outcome.reason}")
+        return
+    time = "kept; --again draws it anew" if outcome.kept else f"{outcome.entry.seconds:.0f} s"
+    click.echo(f"{name}  {outcome.entry.files[0]}  {time}")
+    for line in outcome.entry.missing:
         click.echo(f"           left out: {line}")

@@ -7,6 +7,10 @@ from dataclasses import dataclass, field
 from matplotlib.figure import Figure
 
 
+class NotDrawn(Exception):
+    """A figure cannot be drawn here; the message says what is missing and what to do."""
+
+
 @dataclass(frozen=True, eq=False)
 class Drawn:
     """caption : what is shown, with the numbers that were used. missing : what had to be left out and why, a line each.

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import html
-from collections.abc import Sequence
+from collections.abc import Iterable, Mapping
 
 from .gallery import FIGURES
 from .record import Entry
@@ -28,8 +28,10 @@ a{color:#1f63b0}code{background:#f3f3f4;padding:.1rem .3rem;border-radius:3px}
 """
 
 
-def index_page(entries: Sequence[Entry], *, command: str) -> str:
-    """HTML that shows the figures of `entries` from files beside it. command : makes the folder again."""
+def index_page(entries: Iterable[Entry], *, command: str, undrawn: Mapping[int, str] | None = None) -> str:
+    """HTML that shows the figures of `entries` from files beside it. command : makes the folder again. undrawn : why
+    figures are not there, by number.
+    """
     made = {entry.number: entry for entry in entries}
     parts = [
         '<!doctype html><html lang="en"><meta charset="utf-8">',
@@ -45,7 +47,8 @@ def index_page(entries: Sequence[Entry], *, command: str) -> str:
     for figure in FIGURES:
         name = f"Figure {figure.number}"
         link = f'<a href="#{figure.stem}">{name}</a>' if figure.number in made else f"{name} <i>(not drawn)</i>"
-        cells = (link, html.escape(figure.shows), html.escape(figure.difference))
+        reason = "" if figure.number in made else (undrawn or {}).get(figure.number, "")
+        cells = (link, html.escape(figure.shows), html.escape(f"Not drawn: {reason}." if reason else figure.difference))
         parts.append("<tr>" + "".join(f"<td>{cell}</td>" for cell in cells) + "</tr>")
     parts.append("</tbody></table>")
     parts += [_section(made[figure.number], figure.stem, figure.shows) for figure in FIGURES if figure.number in made]

@@ -12,6 +12,7 @@ from matplotlib.lines import Line2D
 from ..evaluation import Scores
 from ..evaluation.scores import PROTOCOLS
 from . import matching
+from .compared import RIVALS, shipped_comparison
 from .drawn import Drawn
 from .methods import method, obtainable
 from .page import INK, QUIET, blank, panel
@@ -34,8 +35,16 @@ def draw(studio: Studio) -> Drawn:
     contests = studio.cast.contests
     studio.expect(sum(matching.steps(studio, contest, names) for contest in contests))
     rows = [(contest.title, matching.scores(studio, contest, names)) for contest in contests]
-    figure = curve_rows(rows)
-    return Drawn(figure, _caption(studio, rows), missing, {"csv": curve_table(rows)})
+    comparison = shipped_comparison()
+    rivals = [] if comparison is None else comparison.of(RIVALS)
+    if comparison is None or not rivals:
+        missing = (*missing, f"{', '.join(RIVALS)}: no report on them ships with this installation")
+        return Drawn(curve_rows(rows), _caption(studio, rows), missing, {"csv": curve_table(rows)})
+    first, *others = rows
+    rows = [(first[0], [*rivals, *first[1]]), *others]
+    titles = ", ".join(method(score.method).title for score in rivals)
+    said = f" {titles} are from {comparison.source}, on pairs of its own."
+    return Drawn(curve_rows(rows), _caption(studio, rows) + said, missing, {"csv": curve_table(rows)})
 
 
 def curve_rows(rows: Sequence[tuple[str, Sequence[Scores]]]) -> Figure:

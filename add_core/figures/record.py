@@ -16,7 +16,7 @@ FILE = "figures.json"
 @dataclass(frozen=True)
 class Entry:
     """A finished figure. files : names in the folder, the picture first. quality, image : how it was asked for.
-    version : of the program that drew it.
+    training : minutes for each network that was trained for it, 0 if none was. version : of the program that drew it.
     """
 
     number: int
@@ -26,12 +26,8 @@ class Entry:
     quality: str
     image: str
     seconds: float
+    training: float = 0.0
     version: str = __version__
-
-    @property
-    def is_complete(self) -> bool:
-        """Whether nothing had to be left out."""
-        return not self.missing
 
 
 class Record:
@@ -44,10 +40,11 @@ class Record:
     def __iter__(self):  # type: ignore[no-untyped-def]
         return iter(sorted(self._entries.values(), key=lambda entry: entry.number))
 
-    def finished(self, number: int, *, quality: str, image: str) -> Entry | None:
+    def finished(self, number: int, *, quality: str, image: str, training: float = 0.0) -> Entry | None:
         """The entry of a figure that was drawn in this way by this version and whose files are there; or None."""
         found = self._entries.get(number)
-        if found is None or (found.quality, found.image, found.version) != (quality, image, __version__):
+        wanted = (quality, image, training, __version__)
+        if found is None or (found.quality, found.image, found.training, found.version) != wanted:
             return None
         return found if all((self._folder / name).is_file() for name in found.files) else None
 

@@ -10,28 +10,36 @@ from pathlib import Path
 from time import perf_counter
 from typing import Any
 
+from .._check import positive
 from ..errors import ParameterError
 from ..io.atomic import write_atomically
 from .cast import Cast, people
+from .drawn import NotDrawn
 from .gallery import FIGURES, PaperFigure, by_number
 from .index_page import FILE as PAGE
 from .index_page import index_page
 from .page import TYPE
 from .quality import QUALITIES, Quality
 from .record import Entry, Record
-from .studio import Step, Studio
+from .studio import Step, Studio, Workshop
 
 FORMATS = ("png", "pdf", "svg")
+MODELS = "models"
+"""Folder, within that of the figures, of the networks trained for them."""
 
 Watch = Callable[[PaperFigure], AbstractContextManager[Step]]
 
 
 @dataclass(frozen=True)
 class Outcome:
-    """A figure and what became of it. kept : it was there already and has not been drawn again."""
+    """What became of a figure. entry : None if it could not be drawn, for the `reason`. kept : it was there already and
+    has not been drawn again.
+    """
 
-    entry: Entry
-    kept: bool
+    figure: PaperFigure
+    entry: Entry | None
+    kept: bool = False
+    reason: str = ""
 
 
 def chosen_figures(numbers: Sequence[int] | None) -> list[PaperFigure]:
@@ -52,6 +60,7 @@ def reproduce(
     quality: str | Quality = "full",
     image: str = "png",
     again: bool = False,
+    train: float | None = None,
     cast: Cast | None = None,
     command: str = "",
     watch: Watch | None = None,
@@ -60,9 +69,11 @@ def reproduce(
     """Draw figures of the paper into `folder`, with index.html around them.
 
     only : numbers of figures. quality : a name of QUALITIES or a Quality. image : one of FORMATS. again : draw what is
-    there already too. cast : who appears; the shipped people. command : what to tell the reader to run.
-    watch : gives for each figure that is drawn a context, whose value is called as step(done, total) along the way;
-    whatever that raises ends the work, and the next call goes on with the figure at hand. finished : called after each.
+    there already too. train : minutes to train each network of Figure 8 for, with few bodies and models kept in
+    `folder`; None takes a report that ships. cast : who appears; the shipped people. command : what to tell the reader
+    to run. watch : gives for each figure that is drawn a context, whose value is called as step(done, total) along the
+    way; whatever that raises ends the work, and the next call goes on with the figure at hand. finished : called after
+    each.
 
     Raises ParameterError for an unknown figure, quality or format, ShapeFileError if the folder cannot be written.
     """
@@ -70,26 +81,45 @@ def reproduce(
     level = _quality(quality)
     if image not in FORMATS:
         raise ParameterError(f"format must be one of {', '.join(FORMATS)}, but it is {image!r}.")
+    workshop = None if train is None else Workshop(place / MODELS, positive("train", train))
     try:
         place.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise ParameterError(f"{place} cannot be made a folder: {error.strerror or error}.") from None
+    studio = Studio(cast or people(), level, workshop)
     record, outcomes = Record(place), []
-    studio = Studio(cast or people(), level)
     for figure in figures:
-        entry = None if again else record.finished(figure.number, quality=level.name, image=image)
-        outcome = Outcome(entry or _watched(figure, studio, place, image, watch), kept=entry is not None)
-        record.add(outcome.entry)
-        write_atomically(place / PAGE, index_page(list(record), command=command).encode())
+        outcome = _outcome(figure, studio, place, image, record, again=again, watch=watch)
         outcomes.append(outcome)
+        undrawn = {one.figure.number: one.reason for one in outcomes if one.entry is None}
+        page = index_page(record, command=command, undrawn=undrawn)
+        write_atomically(place / PAGE, page.encode())
         if finished is not None:
             finished(outcome)
     return outcomes
 
 
-def _watched(figure: PaperFigure, studio: Studio, folder: Path, image: str, watch: Watch | None) -> Entry:
-    with nullcontext(_ignore) if watch is None else watch(figure) as studio.step:
-        return _made(figure, studio, folder, image)
+def _outcome(
+    figure: PaperFigure,
+    studio: Studio,
+    folder: Path,
+    image: str,
+    record: Record,
+    *,
+    again: bool,
+    watch: Watch | None,
+) -> Outcome:
+    training = studio.workshop.minutes if studio.workshop is not None and figure.can_train else 0.0
+    kept = record.finished(figure.number, quality=studio.quality.name, image=image, training=training)
+    if kept is not None and not again:
+        return Outcome(figure, kept, kept=True)
+    try:
+        with nullcontext(_ignore) if watch is None else watch(figure) as studio.step:
+            entry = _made(figure, studio, folder, image, training)
+    except NotDrawn as error:
+        return Outcome(figure, None, reason=str(error))
+    record.add(entry)
+    return Outcome(figure, entry)
 
 
 def _ignore(done: int, total: int) -> None:
@@ -104,7 +134,7 @@ def _quality(quality: str | Quality) -> Quality:
     return QUALITIES[quality]
 
 
-def _made(figure: PaperFigure, studio: Studio, folder: Path, image: str) -> Entry:
+def _made(figure: PaperFigure, studio: Studio, folder: Path, image: str, training: float) -> Entry:
     import matplotlib
 
     start = perf_counter()
@@ -118,4 +148,5 @@ def _made(figure: PaperFigure, studio: Studio, folder: Path, image: str) -> Entr
     for name, data in files.items():
         write_atomically(folder / name, data)
     seconds = round(perf_counter() - start, 1)
-    return Entry(figure.number, tuple(files), drawn.caption, drawn.missing, studio.quality.name, image, seconds)
+    said = drawn.caption, drawn.missing
+    return Entry(figure.number, tuple(files), *said, studio.quality.name, image, seconds, training)

@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
 from functools import cache
+from pathlib import Path
+from typing import Any
 
 from matplotlib.figure import Figure
 
@@ -24,12 +27,20 @@ from .stage import Stage
 Step = Callable[[int, int], object]
 
 
+@dataclass(frozen=True)
+class Workshop:
+    """Where networks are trained on request. minutes : for each, after its inputs are made. folder : keeps models."""
+
+    folder: Path
+    minutes: float
+
+
 class Studio:
     """Makes things once and remembers them while figures are drawn."""
 
-    def __init__(self, cast: Cast, quality: Quality) -> None:
+    def __init__(self, cast: Cast, quality: Quality, workshop: Workshop | None = None) -> None:
         """`step` may be replaced: it is called as step(done, total) along the way; what it raises ends the work."""
-        self.cast, self.quality = cast, quality
+        self.cast, self.quality, self.workshop = cast, quality, workshop
         self.skies, self.describer = Skies(quality.sky), Describer(angles=quality.angles, count=quality.eigenpairs)
         self.step: Step = lambda done, total: None
         self._done = self._total = 0
@@ -47,6 +58,10 @@ class Studio:
     def done(self) -> None:
         """Say that a step is done."""
         self._done = min(self._done + 1, self._total)
+        self.step(self._done, self._total)
+
+    def listen(self, event: dict[str, Any]) -> None:
+        """Hear from a training that it is alive, so that whoever watches can stop it."""
         self.step(self._done, self._total)
 
     def _person(self, index: int) -> TriangleMesh:

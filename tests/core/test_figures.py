@@ -3,12 +3,16 @@
 import html
 import json
 from contextlib import nullcontext
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from add_core.cli import main
-from add_core.figures import FIGURES, QUALITIES, Quality, reproduce, reproduction
+from add_core.contest import describing
+from add_core.evaluation import Scores, save_report
+from add_core.evaluation.scores import Curve
+from add_core.figures import FIGURES, QUALITIES, Quality, architectures, compared, methods, reproduce, reproduction
 from add_core.figures.cast import Cast, people
 from add_core.geometry import TriangleMesh
 from add_core.geometry.shapes import ellipsoid
@@ -32,7 +36,6 @@ def cast():
         title="eggs",
         names=tuple(f"egg {index}" for index in range(6)),
         symmetry=MIRROR,
-        subjects=tuple(f"egg {index}" for index in range(6)),
         training=(0, 1, 2, 3),
         up="+z",
         front="-y",
@@ -53,6 +56,20 @@ def cast():
     )
 
 
+@pytest.fixture
+def reports(tmp_path, monkeypatch):
+    """A folder with a report on two networks and a rival, as `add-core evaluate` writes it."""
+    curves = tuple(
+        Curve(protocol, setting, np.array([1.0, 2.0]), np.array([0.5, 0.75]))
+        for protocol in ("cmc", "roc", "princeton")
+        for setting in ("symmetric", "asymmetric")
+    )
+    numbers = {"CMC@1 symmetric": 0.5, "CMC@1 asymmetric": 0.4, "P(right side)": 0.9}
+    found = [Scores(name, 3, numbers, curves) for name in ("madd3", "osd", "add1")]
+    save_report(found, tmp_path / "comparison", title="networks")
+    monkeypatch.setattr(compared, "_reports", lambda: [tmp_path / "comparison"])
+
+
 @pytest.fixture(autouse=True)
 def _tiny(monkeypatch, cast, tmp_path):
     monkeypatch.setenv("ADD_CACHE_DIR", str(tmp_path / "cache"))
@@ -66,7 +83,7 @@ def run(*words, status=0):
     assert ended.value.code == status
 
 
-def test_one_command_draws_every_figure_and_a_page_around_them(tmp_path, capsys):
+def test_one_command_draws_every_figure_and_a_page_around_them(tmp_path, capsys, reports):
     folder = tmp_path / "figures"
     run("-o", folder, "--quality", "draft")
     page = (folder / "index.html").read_text(encoding="utf-8")
@@ -75,9 +92,61 @@ def test_one_command_draws_every_figure_and_a_page_around_them(tmp_path, capsys)
         assert picture.read_bytes().startswith(b"\x89PNG")
         assert f'src="{picture.name}"' in page
         assert html.escape(figure.difference) in page
-    assert "not drawn" not in page
+    assert "ot drawn" not in page
     assert not list(folder.glob(".*")), "unfinished files are left behind"
     assert capsys.readouterr().out.count("\n") >= len(FIGURES) + 1
+
+
+def test_curves_of_a_shipped_report_are_drawn_as_they_are(tmp_path, reports):
+    """Figure 8 has the networks of the report in the paper's order; Figure 7 has the rivals that are only there."""
+    reproduce(tmp_path, only=[7, 8], quality="draft")
+    lines = [line.split(",") for line in (tmp_path / "figure_08.csv").read_text().splitlines()]
+    assert list(dict.fromkeys(line[1] for line in lines[1:])) == ["add1", "madd3"]
+    assert ["eggs", "madd3", "cmc", "symmetric", "2", "0.75"] in lines
+    assert ",osd,roc," in (tmp_path / "figure_07.csv").read_text()
+
+
+def test_what_cannot_be_drawn_here_is_said_and_the_rest_is_drawn(tmp_path, capsys, monkeypatch):
+    monkeypatch.setattr(compared, "_reports", list)
+    run("-o", tmp_path, "--quality", "draft", "--only", "5,8")
+    said = capsys.readouterr().out
+    assert "Figure  8  not drawn: trained networks" in said
+    assert "--train MINUTES" in said
+    assert (tmp_path / "figure_05.png").is_file()
+    assert "Not drawn: trained networks" in (tmp_path / "index.html").read_text(encoding="utf-8")
+    run("-o", tmp_path, "--quality", "draft", "--only", "8", "--json", status=1)
+    (one,) = json.loads(capsys.readouterr().out)["figures"]
+    assert (one["number"], one["drawn"]) == (8, False)
+
+
+def test_networks_are_trained_on_request_once_for_the_same_time(tmp_path, monkeypatch):
+    monkeypatch.setattr(compared, "ARCHITECTURES", ("ADD1",))
+    monkeypatch.setattr(architectures, "ARCHITECTURES", ("ADD1",))
+    monkeypatch.setattr(compared, "SPLINES", 8)
+    monkeypatch.setattr(compared, "VALIDATE_EVERY", 10)
+    first, again, longer = (
+        reproduce(tmp_path, only=[8], quality="draft", train=minutes)[0] for minutes in (1e-3, 1e-3, 2e-3)
+    )
+    assert (first.kept, again.kept, longer.kept) == (False, True, False)
+    assert (tmp_path / "models" / "draft, 0.001 minutes" / "ADD1" / "model.safetensors").is_file()
+    assert not (tmp_path / "models" / "draft, 0.001 minutes" / "ADD1" / "inputs").exists()
+    assert "0.001 minutes" in first.entry.caption
+
+
+@pytest.mark.parametrize(("package", "number"), [("torch", 6), ("sklearn", 9)])
+def test_without_an_extra_a_figure_does_without_what_needs_it(tmp_path, monkeypatch, cast, package, number):
+    """On the shipped names, so that both are asked for; what is left out is told with the remedy."""
+    monkeypatch.setattr(describing, "find_spec", lambda name: None if name == package else object())
+    monkeypatch.setattr(methods, "find_spec", lambda name: None if name == package else object())
+    had, missing = methods.obtainable(["hks", "rf", "humans-madd3", "humans-madd3+zoomout"])
+    gone = {"torch": "mADD3", "sklearn": "random forest"}[package]
+    assert "hks" in had
+    assert gone not in [methods.method(name).title for name in had]
+    assert [line for line in missing if line.startswith(gone) and "pip install" in line]
+    asking = replace(cast, learned=("humans-madd3",))
+    if package == "torch":
+        (drawn,) = reproduce(tmp_path, only=[number], quality="draft", cast=asking)
+        assert drawn.entry.missing[0].startswith("mADD3: it needs torch")
 
 
 def test_a_second_run_keeps_what_is_there_and_draws_what_was_lost(tmp_path, capsys):
@@ -131,6 +200,7 @@ def test_progress_ends_complete_and_is_json_on_stderr(tmp_path, capsys):
         (("--only", "three"), "'three' is not a list of figure numbers such as 3,6."),
         (("--quality", "best"), "'best' is not one of"),
         (("--format", "gif"), "'gif' is not one of"),
+        (("--train", "0"), "train must be finite and greater than 0, but it is 0.0."),
     ],
 )
 def test_a_mistake_is_one_line_and_status_two(tmp_path, capsys, words, complaint):
