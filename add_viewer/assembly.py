@@ -182,7 +182,7 @@ class Assembly:
             self.session, self.results, insights, self.jobs, self.worker.submit, self.operators
         )
         self.exploration.models = self.training.models
-        self.training.models_changed.connect(lambda _id: self.exploration.refresh_names())
+        self.training.models_changed.connect(self.exploration.improve)
         self.exploration.refresh_names()
         self.exploring = ExploringViews(self.window, insights)
         self.exploring.symmetry.find_wanted.connect(self.exploration.symmetry.find)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -15,8 +16,10 @@ from add_core.io import load_fields
 
 from ..models.descriptor_names import PLAIN, descriptor_name
 from ..models.shapes import OpenShape, Shape
+from ..models.training import MODEL_FILE
 from .answers import Answers
 from .descriptor_maps import median_distance
+from .model_states import ModelStates, is_model_file, keep_state
 
 FloatArray = NDArray[np.float32]
 
@@ -37,6 +40,11 @@ class DescriptorQuestion:
     kind = "describe"
     file_name = "descriptors.npz"
 
+    @classmethod
+    def about(cls, shape: OpenShape, name: str, stamp: int) -> DescriptorQuestion:
+        """The descriptor of an open shape, by a model's state if it is a model's."""
+        return cls(shape.reference, shape.shape, name, shape.name, stamp)
+
     @property
     def title(self) -> str:
         return f"{descriptor_name(self.name).title} of {self.shape_name}"
@@ -47,7 +55,11 @@ class DescriptorQuestion:
             count = str(min(COUNT, self.shape.vertex_count))
             chosen = ("--descriptor", self.name, "--compared", "--count", count)
             return ("describe", self.reference, *chosen, "-o", str(output))
-        return ("describe", self.name, self.reference, "-o", str(output))
+        model = self.name
+        if is_model_file(model):
+            with suppress(OSError):  # the command then says that there is no such model
+                model = str(keep_state(Path(model), output.with_name(MODEL_FILE.name)))
+        return ("describe", model, self.reference, "-o", str(output))
 
     def read(self, output: Path, said: Mapping[str, Any]) -> FloatArray:
         """(n, d). Raises ShapeFileError if there is no row for each vertex."""
@@ -75,6 +87,7 @@ class DescriptorStore:
         self.answers = answers
         self._models, self._shipped = models, shipped
         self._medians: dict[DescriptorQuestion, float] = {}
+        self.states = ModelStates(answers, DescriptorQuestion.about)
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -83,38 +96,33 @@ class DescriptorStore:
 
     def get(self, shape: OpenShape, name: str) -> FloatArray | None:
         """The descriptors if they are there."""
-        found: FloatArray | None = self.answers.get(question_of(shape, name))
+        found: FloatArray | None = self.answers.get(self._question(shape, name))
         return found
 
     def want(self, shape: OpenShape, name: str) -> FloatArray | None:
         """The descriptors if they are there; otherwise a process begins to compute them."""
-        found: FloatArray | None = self.answers.want(question_of(shape, name))
+        question = self._question(shape, name)
+        if self.answers.get(question) is None and not self.answers.is_asked(question):
+            self.states.catch_up(name)
+        found: FloatArray | None = self.answers.want(self._question(shape, name))
         return found
 
     def message(self, shape: OpenShape, name: str) -> str:
         """What is happening to them, in words."""
-        return self.answers.message(question_of(shape, name))
+        return self.answers.message(self._question(shape, name))
 
     def is_asked(self, shape: OpenShape, name: str) -> bool:
         """Whether they are being computed, or have failed to be."""
-        question = question_of(shape, name)
+        question = self._question(shape, name)
         return self.answers.is_asked(question) or self.answers.has_failed(question)
 
     def median(self, shape: OpenShape, name: str) -> float:
         """Median distance of two points in descriptors that are there."""
-        question = question_of(shape, name)
+        question = self._question(shape, name)
         if question not in self._medians:
             found = self.answers.get(question)
             self._medians[question] = 1.0 if found is None else median_distance(found)
         return self._medians[question]
 
-
-def question_of(shape: OpenShape, name: str) -> DescriptorQuestion:
-    """The question for the descriptor as it is now: a model that trains on is another one at every checkpoint."""
-    stamp = 0
-    if Path(name).name != name:
-        try:
-            stamp = Path(name).stat().st_mtime_ns
-        except OSError:
-            stamp = -1
-    return DescriptorQuestion(shape.reference, shape.shape, name, shape.name, stamp)
+    def _question(self, shape: OpenShape, name: str) -> DescriptorQuestion:
+        return DescriptorQuestion.about(shape, name, self.states.shown(name))

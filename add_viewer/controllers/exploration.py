@@ -33,7 +33,7 @@ class Exploration:
         self, session: Session, results: Results, insights: Insights, jobs: Jobs, run: Run, operators: OperatorStore
     ) -> None:
         self.models: Models = list
-        self._insights = insights
+        self._session, self._insights = session, insights
         self.answers = Answers(jobs, run)
         self.descriptors = DescriptorStore(self.answers, self._paths, learned_models)
         self.matching = MatchingController(session, results, insights, self.answers)
@@ -49,6 +49,14 @@ class Exploration:
         """Look anew at which descriptors there are: a training may have ended, or written a model."""
         name_models({path: title for title, path in self.models()})
         self._insights.set_descriptors(self.descriptors.names)
+
+    def improve(self, model: str) -> None:
+        """A training wrote a better model: let what is shown of it follow."""
+        self.refresh_names()
+        state = self._session.state
+        used = {choice.descriptor for choice in state.choices} | {state.matching.descriptor}
+        if model in used:
+            self.descriptors.states.renew(model, state.shapes)
 
     def _paths(self) -> tuple[str, ...]:
         return tuple(path for _, path in self.models())

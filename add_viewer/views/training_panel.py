@@ -63,7 +63,8 @@ class Trainings(Protocol):
 class TrainingPanel(QWidget):
     """Shows `trainings`, and asks `jobs` to pause, resume or cancel them.
 
-    submitted : a request. used : path of a model to make distance maps with. deleted : id of a training.
+    request : what was asked for last. submitted : a request. used : path of a model to make distance maps with.
+    deleted : id of a training.
     """
 
     submitted = Signal(object)
@@ -73,7 +74,7 @@ class TrainingPanel(QWidget):
     def __init__(self, jobs: Jobs, trainings: Trainings, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._jobs, self._trainings, self._theme = jobs, trainings, LIGHT
-        self._latest_request = TrainingRequest()
+        self.request = TrainingRequest()
         self.form: TrainingForm | None = None
         self.new_button, self.first_button = QPushButton("New training…"), QPushButton("New training…")
         self.list, self.plots = QListWidget(), TrainingPlots()
@@ -180,14 +181,14 @@ class TrainingPanel(QWidget):
 
     def open_form(self) -> None:
         """Ask what to train, beginning with what was trained last."""
-        self.form = TrainingForm(self._latest_request, self)
+        self.form = TrainingForm(self.request, self)
         self.form.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         self.form.submitted.connect(self._submit)
         self.form.finished.connect(lambda _result: setattr(self, "form", None))
         self.form.open()
 
     def _submit(self, request: TrainingRequest) -> None:
-        self._latest_request = request
+        self.request = request
         self.submitted.emit(request)
 
     def _ask(self, verb: Verb) -> None:

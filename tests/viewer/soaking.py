@@ -249,8 +249,8 @@ class Soaker:
         self.assembly.saving.copy_script()
 
     def _train(self) -> None:
-        form = self.assembly.background.training_panel.form
-        self.assembly.background.training_panel.submitted.emit(form.request)
+        panel = self.assembly.background.training_panel
+        panel.submitted.emit(panel.request)
 
     def _cancel(self) -> None:
         listed = self.assembly.jobs.listed

@@ -9,7 +9,7 @@ from balls import Core, open_ball
 
 from add_core.errors import ShapeFileError
 from add_viewer.controllers.answers import Answers
-from add_viewer.controllers.descriptors import DescriptorQuestion, DescriptorStore, question_of
+from add_viewer.controllers.descriptors import DescriptorQuestion, DescriptorStore
 from add_viewer.controllers.symmetry import SymmetryController
 from add_viewer.models.insights import Insights
 from add_viewer.models.jobs import Jobs
@@ -107,15 +107,15 @@ def test_a_file_that_changed_meanwhile_is_refused(tmp_path, monkeypatch):
         question.read(tmp_path / "d.npz", {})
 
 
-def test_a_model_that_trains_on_is_another_question(tmp_path):
+def test_a_model_that_trains_on_is_another_question_about_a_state_that_stays(tmp_path):
     shape, model = open_ball(tmp_path), tmp_path / "model.safetensors"
     model.write_bytes(b"one")
-    before = question_of(shape, str(model))
-    import os
-
-    os.utime(model, ns=(1, 1))
-    assert question_of(shape, str(model)) != before
-    assert question_of(shape, str(model)).arguments(Path("out.npz"))[:3] == ("describe", str(model), shape.reference)
+    before = DescriptorQuestion.about(shape, str(model), 1)
+    assert DescriptorQuestion.about(shape, str(model), 2) != before
+    word, state, reference, *_ = before.arguments(tmp_path / "job" / "out.npz")
+    (tmp_path / "better").write_bytes(b"two")
+    (tmp_path / "better").replace(model)
+    assert (word, reference, Path(state).read_bytes()) == ("describe", shape.reference, b"one")
 
 
 def test_the_mirror_map_of_a_shape_is_found_by_itself(tmp_path, run, monkeypatch):

@@ -97,6 +97,20 @@ def shows(widget, colour):
     return bool((np.abs(pixels - 255 * np.array(colour)).max(axis=2) < 12).sum() > 10)
 
 
+def see_its_distances(person, trainer, bodies):
+    """Use the training's best state so far, while it trains on."""
+    body = str(bodies / "body0.ply")
+    person.open(body)
+    person.session.pick(0)
+    trainer.wait(trainer.panel.use_button.isEnabled)
+    trainer.press(trainer.panel.use_button)
+    field = (0, body)
+    trainer.wait(lambda: field in person.results.fields and person.results.fields[field].values is not None)
+    assert person.results.fields[field].choice.kind == "distance"
+    assert person.results.fields[field].values[0] == 0.0
+    assert trainer.job.state == "running"
+
+
 def test_a_training_is_started_watched_paused_killed_and_gone_on_with(person, trainer, qtbot, bodies):
     qtbot.keyClick(person.window, Qt.Key.Key_T, CONTROL)
     form = trainer.panel.form
@@ -107,8 +121,8 @@ def test_a_training_is_started_watched_paused_killed_and_gone_on_with(person, tr
     assert trainer.job.request.title == f"ADD1 on {bodies.name}"
     trainer.wait(lambda: trainer.curves.validations)
     trainer.wait(lambda: shows(trainer.panel.plots, MARKERS[0]))  # the AUC is drawn
-    trainer.wait(trainer.panel.use_button.isEnabled)
     assert trainer.assembly.background.status.isVisible()
+    see_its_distances(person, trainer, bodies)
 
     trainer.press(trainer.panel.buttons["pause"])
     trainer.wait_for_state("paused")
