@@ -11,6 +11,9 @@ from ..models.session import SessionState
 from .descriptor_maps import ambiguity, best_places, distance_map
 from .field_plans import Place, Plan, Sources, same
 
+MISTAKEN = 0.01
+"""Distance to the mirror image, ÷ median, up to which a point counts as mistaken for it: the cold end of colours."""
+
 
 def distance_plan(place: Place, sources: Sources) -> Plan:
     """Distances to the picked point in descriptor space, the paper's Figure 6."""
@@ -67,10 +70,10 @@ def ambiguity_plan(place: Place, sources: Sources) -> Plan:
             shape=place.shape.key,
             choice=place.choice,
             values=ambiguity(ours, symmetry),
-            title=f"Left from right in {descriptor_name(name).title}",
-            notes=("distance to the mirror image", "÷ median distance"),
+            title=f"{descriptor_name(name).title}, left–right",
+            notes=("to the mirror image", "÷ median, log scale"),
             tones="distance",
-            scale=ValueScale(0.0, 1.0, open_high=True),
+            scale=ValueScale(MISTAKEN, 1.0, "log", open_low=True, open_high=True),
             symbol="to its mirror image",
             unit="medians",
         )

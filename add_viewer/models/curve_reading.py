@@ -32,6 +32,11 @@ def over_time(curves: AutodiffusionCurves, theta: float) -> FloatArray:
     return row
 
 
+def read_backwards(thetas: FloatArray, values: FloatArray) -> FloatArray:
+    """(L,) `values` over `thetas` (L,) at −θ instead of θ, interpolated: f_−θ, which is f_θ of the mirror image."""
+    return np.interp(-thetas, thetas, values, period=np.pi)
+
+
 def once_around(curves: AutodiffusionCurves, values: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Angles from θ₀ to θ₀ + π and `values` (L,) over them, closed: the first value comes again at the end."""
     return np.append(curves.thetas, curves.thetas[0] + np.pi), np.append(values, values[0])

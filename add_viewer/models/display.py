@@ -19,7 +19,14 @@ _CHOICES = {
     "kernel_colours": KERNEL_COLOURS,
     "samples": SAMPLES,
 }
-_SWITCHES = {"arrows": False, "wireframe": False, "colour_bar": True, "relative_curves": True, "autosave": True}
+_SWITCHES = {
+    "arrows": False,
+    "wireframe": False,
+    "colour_bar": True,
+    "relative_curves": True,
+    "reflected_curves": False,
+    "autosave": True,
+}
 
 
 class Display:

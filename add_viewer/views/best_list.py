@@ -28,6 +28,7 @@ class BestList(QWidget):
         self._session, self._insights = session, insights
         self.buttons: list[QToolButton] = []
         self._blocks: list[QWidget] = []
+        self._wanted = True
         self._column = QVBoxLayout(self)
         self._column.setContentsMargins(0, 0, 0, 0)
         self._column.setSpacing(GRID)
@@ -49,7 +50,12 @@ class BestList(QWidget):
                 split = f", {descriptor_name(state.choices[panel].descriptor).title}" if state.compare else ""
                 self._blocks.append(self._block(f"{shape.name}{split}", matches))
                 self._column.addWidget(self._blocks[-1])
-        self.setVisible(bool(self._blocks))
+        self.setVisible(bool(self._blocks) and self._wanted)
+
+    def show_if(self, on: bool) -> None:
+        """Whether there is room and reason for the list."""
+        self._wanted = on
+        self.setVisible(bool(self._blocks) and on)
 
     def _block(self, title: str, matches: tuple[BestMatch, ...]) -> QWidget:
         block = QWidget()

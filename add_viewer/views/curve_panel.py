@@ -31,6 +31,8 @@ _PATIENCE = 100
 _FIRST_PATIENCE = 300
 """Milliseconds that the axes wait for the shape's first picture: drawing them takes as long as a hundred curves."""
 
+_SWITCHES = ("relative_curves", "reflected_curves")
+
 LEGEND = "Thick: the shown t.  Thin: t/10, dashed: 10 t.  Right: thick AHKS at θ, thin HKS (α = 0) at equal t·λ₁."
 
 
@@ -78,15 +80,16 @@ class CurvePanel(QWidget):
         self._results.curves_changed.connect(self._show_curves)
         self._session.diffusion_changed.connect(self._move)
         self._results.kernel_changed.connect(self._move_with_kernel)
-        self._display.changed.connect(lambda name: self._show_curves() if name == "relative_curves" else None)
+        self._display.changed.connect(lambda name: self._show_curves() if name in _SWITCHES else None)
 
     # -- models to view -----------------------------------------------------------------------------------------------
 
     def scene(self, theme: Theme | None = None) -> CurveScene:
         """What is shown now, for another theme if wanted."""
         diffusion = self._session.state.diffusion
-        relative = self._display["relative_curves"]
-        return CurveScene(self._results.curves, diffusion.theta, diffusion.reach, relative, theme or self._theme)
+        relative, reflected = (self._display[name] for name in _SWITCHES)
+        curves = self._results.curves
+        return CurveScene(curves, diffusion.theta, diffusion.reach, relative, theme or self._theme, reflected)
 
     def _show_curves(self) -> None:
         curves = self._results.curves

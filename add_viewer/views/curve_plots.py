@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 
 from add_core.drawing.colours import MARKERS, theta_colour
 
-from ..models.curve_reading import once_around, over_theta, over_time
+from ..models.curve_reading import once_around, over_theta, over_time, read_backwards
 from ..models.diffusion import REACH_MAX, REACH_MIN
 from ..models.results import AutodiffusionCurves
 from .theme import Theme
@@ -23,13 +23,17 @@ OTHER_TIMES = ((0.1, 0.9, "t/10"), (10.0, 0.9, "10 t"))
 
 @dataclass(frozen=True, eq=False)
 class CurveScene:
-    """Everything that the plots show at one moment. Angles in radians, times in geodesic diameters squared."""
+    """Everything that the plots show at one moment. Angles in radians, times in geodesic diameters squared.
+
+    reflected : curves of mirror images are drawn at −θ, where they lie on those of the points that they mirror.
+    """
 
     curves: tuple[AutodiffusionCurves, ...]
     theta: float
     reach: float
     relative: bool
     theme: Theme
+    reflected: bool = False
 
     @property
     def shown(self) -> tuple[AutodiffusionCurves, ...]:
@@ -78,7 +82,7 @@ class CurvePlots:
         axes.set_xticks([0, 45, 90, 135, 180], ["0°", "45°", "90°", "135°", "180°"])
         axes.set_xlabel("direction θ", labelpad=1)
         axes.set_title(
-            "AHKS over θ" + (", ÷ mean" if scene.relative else ", 1/⌀²"),
+            f"AHKS over θ, {'÷ mean' if scene.relative else '1/⌀²'}{', dotted at −θ' if scene.reflected else ''}",
             loc="left",
             fontsize=9,
             color=scene.theme.text,
@@ -137,6 +141,8 @@ class CurvePlots:
             look = {"color": colour, "ls": style, "lw": width, "alpha": alpha, "animated": True}
             if factor > 1:
                 look["dashes"], look["ls"] = (4, 2), "--"
+            if scene.reflected and curves.pick.is_mirror:
+                values = read_backwards(curves.thetas, values)
             angles, shares = once_around(curves, values / values.mean())
             shown = shares if scene.relative else once_around(curves, values)[1]
             wrapped = np.degrees(np.concatenate([angles - np.pi, angles]))

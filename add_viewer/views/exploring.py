@@ -8,19 +8,21 @@ from typing import TYPE_CHECKING
 import numpy as np
 from PySide6.QtWidgets import QFrame, QVBoxLayout, QWidget
 
+from add_core.geometry import TriangleMesh
+
 from ..models.commands import Command
 from ..models.field_catalogue import entry_of
 from ..models.fields import FieldChoice
 from ..models.insights import Insights
 from ..models.picks import Pick
 from ..models.session import SessionState
-from ..models.shapes import OpenShape
+from ..models.shapes import IntArray, OpenShape
 from .best_list import BestList
 from .field_chooser import FieldChooser
 from .field_controls import FieldControls
 from .matching_panel import MatchingPanel
 from .quality_plot import QualityPlot
-from .symmetry_panel import SCENES, SymmetryPanel
+from .symmetry_panel import SCENES, SymmetryPanel, alike
 from .theme import GRID, Theme
 
 if TYPE_CHECKING:
@@ -43,6 +45,7 @@ class ExploringViews:
         self.matching = MatchingPanel(self._session, insights)
         self.quality = QualityPlot(self._session, insights)
         self.section = QWidget()
+        self._had_curves = False
         self._lay_out()
         self.quality_dock = window.panels.add_beside(window.curve_dock, "Quality of the matching", self.quality)
         self._connect()
@@ -65,6 +68,7 @@ class ExploringViews:
         window, session = self._window, self._session
         session.field_changed.connect(self._show)
         session.shapes_changed.connect(self._show)
+        self._insights.qualities_changed.connect(self._show_quality)
         self.best.chosen.connect(lambda key, vertex: session.pick(vertex, shape=key))
         window.menus.on("choose_field", lambda: self._open_list(0))
         window.menus.on("choose_comparison", lambda: self._open_list(1))
@@ -79,10 +83,18 @@ class ExploringViews:
         kinds = {choice.kind for choice in state.choices}
         self.symmetry.setVisible(self.explores_symmetry(state))
         self.matching.setVisible(bool(kinds & _TRANSFERS))
-        self.best.setEnabled("distance" in kinds)
+        self.best.show_if("distance" in kinds and not self.explores_symmetry(state))
         entries = self.chooser.entries
         controls = frozenset().union(*(entry_of(entries, choice).controls for choice in state.choices))
         self._window.parameters.show_relevance(controls)
+
+    def _show_quality(self) -> None:
+        """Bring the plot to the front when the first curves of a transfer are there."""
+        has_curves = any(quality.curves for quality in self._insights.qualities)
+        if has_curves and not self._had_curves and self.matching.isVisibleTo(self.section):
+            self.quality_dock.show()
+            self.quality_dock.raise_()
+        self._had_curves = has_curves
 
     @staticmethod
     def explores_symmetry(state: SessionState) -> bool:
@@ -90,7 +102,7 @@ class ExploringViews:
         choices = (state.field, state.compare)
         if any(choice is not None and choice.kind == "ambiguity" for choice in choices):
             return True
-        return state.field.name == "mirror" or choices == SCENES["distances"][2:]
+        return state.field.name == "mirror" or alike(choices, SCENES["distances"][2:])
 
     def show_theme(self, theme: Theme) -> None:
         """Icons and plots in the theme's colours."""
@@ -134,15 +146,31 @@ class ExploringViews:
 
 
 def telling_picks(state: SessionState, shape: OpenShape) -> tuple[Pick, ...]:
-    """The last picked point and its mirror image; without any, a point far out on one side."""
-    plain = [pick for pick in state.active_picks if not pick.is_mirror]
-    partners = [pick for pick in state.active_picks if pick.is_mirror]
-    if partners:
+    """The last picked point and its mirror image; without any, a point where there is much to see."""
+    if shape.symmetry is None or any(pick.is_mirror for pick in state.active_picks):
         return state.picks
-    if shape.symmetry is None:
-        return state.picks
-    vertices = shape.shape.vertices
-    ways = np.linalg.norm(vertices - vertices[shape.symmetry], axis=1)
-    vertex = plain[-1].vertex if plain and shape.mirror(plain[-1].vertex) is not None else int(np.argmax(ways))
+    plain = [pick.vertex for pick in state.active_picks if shape.mirror(pick.vertex) is not None]
+    vertex = plain[-1] if plain else showy_vertex(shape, shape.symmetry)
     mirror = int(shape.symmetry[vertex])
     return (Pick(shape.key, vertex, 0), Pick(shape.key, mirror, 0, mirror_of=vertex))
+
+
+HEIGHT, SIDE = 0.42, 0.2
+"""Where heat shows well: a little below the middle (a person's thigh), and clearly on one side."""
+
+
+def showy_vertex(shape: OpenShape, symmetry: IntArray) -> int:
+    """A vertex that looks forward, at `HEIGHT`, at least `SIDE` of the greatest width away from its mirror image.
+
+    symmetry : (n,). Where up and front are unknown, the vertex farthest from its mirror image.
+    """
+    vertices, mesh = shape.shape.vertices, shape.shape
+    ways = np.linalg.norm(vertices - vertices[symmetry], axis=1)
+    if not (shape.up and shape.front and isinstance(mesh, TriangleMesh)):
+        return int(np.argmax(ways))
+    axes = {name: np.eye(3)[row] for row, name in enumerate("xyz")}
+    up, front = (axes[axis[-1]] * (-1.0 if axis.startswith("-") else 1.0) for axis in (shape.up, shape.front))
+    height = vertices @ up
+    share = (height - height.min()) / max(float(np.ptp(height)), 1e-12)
+    fits = (mesh.vertex_normals @ front > 0.9) & (ways > SIDE * ways.max())
+    return int(np.argmin(np.where(fits, np.abs(share - HEIGHT), np.inf))) if fits.any() else int(np.argmax(ways))

@@ -102,7 +102,7 @@ class MainWindow(QMainWindow):
         scroll.setWidgetResizable(True)
         scroll.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         self.setCorner(Qt.Corner.BottomLeftCorner, Qt.DockWidgetArea.LeftDockWidgetArea)
-        self.parameter_dock = self.panels.add("Diffusion", scroll, Qt.DockWidgetArea.LeftDockWidgetArea)
+        self.parameter_dock = self.panels.add("What is shown", scroll, Qt.DockWidgetArea.LeftDockWidgetArea)
         self.curve_dock = self.panels.add(
             "Curves at the picked points", self.curves, Qt.DockWidgetArea.BottomDockWidgetArea
         )

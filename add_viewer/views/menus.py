@@ -95,6 +95,7 @@ SWITCHES = (
     Entry("arrows", "&Directions on the skin", "D", "mdi6.arrow-top-right", "Where heat runs, turned by θ"),
     Entry("wireframe", "&Wireframe", "W", "mdi6.grid", "The triangles' edges"),
     Entry("colour_bar", "&Colour bar", "B", "mdi6.gradient-vertical"),
+    Entry("reflected_curves", "&Read mirror curves backwards", "I", "mdi6.swap-horizontal", "f at −θ instead of θ"),
     Entry("relative_curves", "Curves ÷ their &mean over θ", "N", "mdi6.chart-bell-curve", "Or as they are"),
 )
 ARRANGING = (

@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import degrees, pi, radians
 
 from PySide6.QtCore import QElapsedTimer, QSignalBlocker, Qt, QTimer
-from PySide6.QtWidgets import QComboBox, QFrame, QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QComboBox, QFrame, QHBoxLayout, QLabel, QPushButton, QToolButton, QVBoxLayout, QWidget
 
 from ..models.diffusion import ALPHA_MAX, REACH_MAX, REACH_MIN, Diffusion
 from ..models.results import Results
@@ -50,6 +50,7 @@ class ParameterPanel(QWidget):
         self.model_row = _named("Conductivity", self.model, MODEL_HELP)
         self.theta_row = self._theta_row()
         self.scale_note = QLabel()
+        self.fold, self._diffusion = QToolButton(), QWidget()
         self._player = Player(session, self)
         self._build()
         self._connect()
@@ -67,18 +68,30 @@ class ParameterPanel(QWidget):
         layout = QVBoxLayout(self)
         layout.setContentsMargins(2 * GRID, int(1.5 * GRID), 2 * GRID, GRID)
         layout.setSpacing(int(1.5 * GRID))
-        for row in (
-            self.shapes,
-            self.model_row,
-            self.alpha,
-            self.theta_row,
-            self.time,
-            _line(),
-            self.picks,
-        ):
+        self._build_diffusion()
+        for row in (self.shapes, self.fold, self._diffusion, _line(), self.picks):
             layout.addWidget(row)
         layout.addStretch(1)
         layout.addWidget(self.scale_note)
+
+    def _build_diffusion(self) -> None:
+        self.fold.setText("Diffusion of the curves")
+        self.fold.setCheckable(True)
+        self.fold.setToolTip("α, θ and t do not matter for what is drawn, but for the curves at the picked points")
+        self.fold.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextBesideIcon)
+        self.fold.setProperty("quiet", True)
+        self.fold.setArrowType(Qt.ArrowType.RightArrow)
+        self.fold.hide()
+        self.fold.toggled.connect(self._unfold)
+        column = QVBoxLayout(self._diffusion)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.setSpacing(int(1.5 * GRID))
+        for row in (self.model_row, self.alpha, self.theta_row, self.time):
+            column.addWidget(row)
+
+    def _unfold(self, on: bool) -> None:
+        self.fold.setArrowType(Qt.ArrowType.DownArrow if on else Qt.ArrowType.RightArrow)
+        self._diffusion.setVisible(on)
 
     def add_section(self, section: QWidget) -> None:
         """Put a section between the shapes and the controls of the diffusion."""
@@ -89,12 +102,15 @@ class ParameterPanel(QWidget):
     def show_relevance(self, controls: frozenset[str]) -> None:
         """Let only those controls be used that matter for what is drawn: "model", "alpha", "theta", "time".
 
-        Where none does, they serve the curves, and all stay.
+        Where none does, they serve the curves alone, and fold away.
         """
         rows = {"model": self.model_row, "alpha": self.alpha, "theta": self.theta_row, "time": self.time}
         matters = controls & set(rows) or frozenset(rows)
         for name, row in rows.items():
             row.setEnabled(name in matters)
+        matter = bool(controls & set(rows))
+        self.fold.setVisible(not matter)
+        self._diffusion.setVisible(matter or self.fold.isChecked())
 
     def _theta_row(self) -> QWidget:
         label = QLabel("Direction &θ")

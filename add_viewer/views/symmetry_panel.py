@@ -12,12 +12,15 @@ from ..models.session import Session
 from .telling_bars import TellingBars
 from .theme import GRID, Theme
 
+NEAR = 10.0
+"""Percentile at which the explorer's distances saturate: only what is nearly the same stays cold."""
+
 SCENES: dict[str, tuple[str, str, FieldChoice, FieldChoice | None]] = {
     "distances": (
         "&Distances",
         "What HKS takes the point for, and what AHKS does: cold is alike",
-        FieldChoice("distance", "hks"),
-        FieldChoice("distance", "ahks"),
+        FieldChoice("distance", "hks", saturation=NEAR),
+        FieldChoice("distance", "ahks", saturation=NEAR),
     ),
     "everywhere": (
         "&Everywhere",
@@ -98,7 +101,7 @@ class SymmetryPanel(QWidget):
         state = self._session.state
         self.bars.show_tellings(self._insights.tellings)
         for name, button in self.scenes.items():
-            button.setChecked((state.field, state.compare) == SCENES[name][2:])
+            button.setChecked(alike((state.field, state.compare), SCENES[name][2:]))
         shape = state.active
         unknown = shape is not None and shape.symmetry is None
         self.find_button.setVisible(unknown and not self._insights.mirror_message)
@@ -111,6 +114,12 @@ class SymmetryPanel(QWidget):
     def show_theme(self, theme: Theme) -> None:
         """Colours of the bars."""
         self.bars.show_theme(theme)
+
+
+def alike(one: tuple[FieldChoice, FieldChoice | None], two: tuple[FieldChoice, FieldChoice | None]) -> bool:
+    """Whether the same fields are shown, wherever distances saturate."""
+    plain = [[None if each is None else each.with_changes(saturation=NEAR) for each in pair] for pair in (one, two)]
+    return plain[0] == plain[1]
 
 
 def _status(known: bool, confidence: float | None) -> str:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from math import log10
+
 from PySide6.QtCore import QPointF, QRectF, QSize, Qt, Signal
 from PySide6.QtGui import QColor, QFont, QMouseEvent, QPainter, QPaintEvent, QPen
 from PySide6.QtWidgets import QSizePolicy, QWidget
@@ -13,7 +15,7 @@ from ..models.descriptor_names import descriptor_name
 from ..models.insights import Telling
 from .theme import GRID, LIGHT, Theme
 
-_ROW, _LABEL, _NUMBER, _SCALE = 3 * GRID, 9 * GRID, 5 * GRID, 3 * GRID
+_ROW, _LABEL, _NUMBER, _SCALE = 3 * GRID, 9 * GRID, 7 * GRID, 3 * GRID
 
 
 class TellingBars(QWidget):
@@ -84,7 +86,7 @@ class TellingBars(QWidget):
         painter.setBrush(self._theme.colour("line"))
         painter.drawRoundedRect(track, 5, 5)
         if telling.ratio is not None:
-            share = min(max(telling.ratio, 0.0), 1.0)
+            share = position(telling.ratio)
             painter.setBrush(QColor(hex_colour(distance_map(101)[round(100 * share)])))
             painter.drawRoundedRect(QRectF(track.left(), track.top(), max(10.0, share * track.width()), 10), 5, 5)
         painter.setPen(self._theme.colour("text" if known else "accent"))
@@ -97,13 +99,18 @@ class TellingBars(QWidget):
         painter.setPen(QPen(self._theme.colour("muted"), 1))
         track = self._track(y)
         words = QRectF(0, y, track.right(), _SCALE - 4)
-        painter.drawText(words.adjusted(track.left(), 0, 0, 0), Qt.AlignmentFlag.AlignLeft, "the same")
-        painter.drawText(words, Qt.AlignmentFlag.AlignRight, "any two points")
+        painter.drawText(words.adjusted(track.left(), 0, 0, 0), Qt.AlignmentFlag.AlignLeft, "mistaken")
+        painter.drawText(words, Qt.AlignmentFlag.AlignRight, "told apart")
+
+
+def position(ratio: float) -> float:
+    """0 to 1 along a bar, as in the colours of the body: equal ratios take equal room, from 0.01 to 1."""
+    return min(max(1.0 + log10(max(ratio, 1e-9)) / 2.0, 0.0), 1.0)
 
 
 def _number(telling: Telling) -> str:
     if telling.ratio is not None:
-        return f"{telling.ratio:.2f}"
+        return f"{telling.ratio:.2f}" if telling.ratio >= 0.01 else "< 0.01"
     if telling.message.startswith("Computing"):
         return telling.message.rpartition("…")[2].strip() or "…"
     return "–" if telling.message.startswith("Pick") else "failed" if telling.message else "compute"

@@ -104,7 +104,7 @@ def test_hks_takes_points_for_their_mirror_image_and_ahks_does_not(world):
         assert np.isnan(values[world.egg.symmetry == np.arange(len(values))]).all()
         typical = np.nanmedian(values)
         assert typical < 1e-3 if descriptor == "hks" else typical > 0.1
-        assert (world.field().scale.low, world.field().scale.high) == (0.0, 1.0)
+        assert (world.field().scale.low, world.field().scale.high) == (0.01, 1.0)
 
 
 def test_a_cancelled_job_is_told_and_the_next_choice_tries_again(world):

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from add_viewer.models.curve_reading import once_around, over_theta, over_time
+from add_viewer.models.curve_reading import once_around, over_theta, over_time, read_backwards
 from add_viewer.models.picks import Pick
 from add_viewer.models.results import AutodiffusionCurves
 
@@ -36,3 +36,10 @@ def test_between_the_last_angle_and_the_first_the_curve_is_closed(curves):
     angles, values = once_around(curves, curves.values[:, 0])
     assert angles[-1] == pytest.approx(angles[0] + np.pi)
     assert values[-1] == values[0]
+
+
+def test_a_mirror_curve_read_backwards_is_the_curve_itself():
+    thetas = np.pi * np.arange(16) / 16
+    curve = 2 + np.sin(2 * thetas) + 0.3 * np.cos(4 * thetas + 1)
+    mirrored = 2 + np.sin(-2 * thetas) + 0.3 * np.cos(-4 * thetas + 1)
+    assert read_backwards(thetas, mirrored) == pytest.approx(curve)
