@@ -33,7 +33,7 @@ class Exploration:
         self, session: Session, results: Results, insights: Insights, jobs: Jobs, run: Run, operators: OperatorStore
     ) -> None:
         self.models: Models = list
-        self._session, self._insights = session, insights
+        self._session, self.insights = session, insights
         self.answers = Answers(jobs, run)
         self.descriptors = DescriptorStore(self.answers, self._paths, learned_models)
         self.matching = MatchingController(session, results, insights, self.answers)
@@ -48,7 +48,7 @@ class Exploration:
     def refresh_names(self) -> None:
         """Look anew at which descriptors there are: a training may have ended, or written a model."""
         name_models({path: title for title, path in self.models()})
-        self._insights.set_descriptors(self.descriptors.names)
+        self.insights.set_descriptors(self.descriptors.names)
 
     def improve(self, model: str) -> None:
         """A training wrote a better model: let what is shown of it follow."""

@@ -21,8 +21,9 @@ CURVATURES = {
     "confidence": ("Trust in the directions", "", "confidence"),
 }
 """Name → title, unit, symbol."""
-_MOST = 97.0
-"""Percentile of |curvature| at which colours saturate: creases would hide all the rest."""
+_MOST = {"gaussian": 80.0}
+_MOST_OF_OTHERS = 94.0
+"""Percentile of |curvature| at which colours saturate: fingertips and creases would hide all the rest."""
 
 
 def curvature_plan(place: Place, sources: Sources) -> Plan:
@@ -34,7 +35,7 @@ def curvature_plan(place: Place, sources: Sources) -> Plan:
         frames = sources.operators.laplacian(shape, "curvature", 0.0).frames
         values = at_vertices(shape.shape, curvature(frames, name))
         title, unit, symbol = CURVATURES[name]
-        top = float(np.percentile(np.abs(values), _MOST)) or 1.0
+        top = float(np.percentile(np.abs(values), _MOST.get(name, _MOST_OF_OTHERS))) or 1.0
         plain = name == "confidence"
         scale = ValueScale(0.0, 1.0) if plain else ValueScale(-top, top, open_low=True, open_high=True)
         return ShapeField(

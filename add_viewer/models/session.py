@@ -201,8 +201,15 @@ class Session:
             self._set_picks("pick", state, (*kept, _new_pick(state, vertex, slot)))
 
     def pick_mirror(self, vertex: int, *, shape: str | None = None) -> None:
-        """Pick the mirror image of `vertex`, in the colour of `vertex`, which is picked too if it is not yet."""
+        """Pick the mirror image of `vertex`, in the colour of `vertex`, which is picked too if it is not yet.
+
+        Where the mirror map is not known, `vertex` itself is the partner of the point picked last.
+        """
         state = self._with_active(shape)
+        plain = [pick.vertex for pick in state.active_picks if not pick.is_mirror]
+        if state.active is not None and state.active.symmetry is None and plain:
+            self.pick_partner(plain[-1], vertex, shape=shape)
+            return
         mirror = state.active.mirror(vertex) if state.active and _has_vertex(state, vertex) else None
         if mirror is not None:
             self.pick_partner(vertex, mirror, shape=shape)
@@ -212,7 +219,7 @@ class Session:
         state = self._with_active(shape)
         if not (_has_vertex(state, vertex) and _has_vertex(state, mirror)):
             return
-        kept = state.active_picks
+        kept = tuple(pick for pick in state.active_picks if pick.mirror_of != vertex)
         partner = next((pick for pick in kept if pick.vertex == vertex), None)
         slot = partner.slot if partner else free_slot(kept)
         if slot is None or any(pick.vertex == mirror for pick in kept):

@@ -78,9 +78,10 @@ class FieldControls(QWidget):
         entry = None if choice is None else entry_of(catalogue(self._session.state, ()), choice)
         controls = frozenset() if entry is None else entry.controls
         repeated = self._panel == 1 and self._session.state.field.kind == "distance"
-        self.saturation.setVisible("saturation" in controls and not repeated)
-        self.index_row.setVisible("index" in controls)
-        self.setVisible(bool(controls & {"saturation", "index"}))
+        saturates, counts = "saturation" in controls and not repeated, "index" in controls
+        self.saturation.setVisible(saturates)
+        self.index_row.setVisible(counts)
+        self.setVisible(saturates or counts)
         if choice is not None:
             self.saturation.show_value(choice.saturation)
             self.index.show_value(choice.index + self._first)
