@@ -17,6 +17,14 @@ from ..errors import AddError, Cancelled
 COMMANDS = ("info", "kernel", "spectra", "describe", "match", "symmetry", "evaluate", "train", "figures", "cache")
 """Each is a module of this package with a click command named `command`."""
 
+OPTIONAL = {
+    "torch": "torch safetensors",
+    "safetensors": "safetensors",
+    "matplotlib": "matplotlib",
+    "sklearn": "scikit-learn",
+}
+"""Modules that not every installation has, and what to install for them."""
+
 SUCCESS, FAILURE, MISTAKE, INTERRUPTED = 0, 1, 2, 130
 
 
@@ -78,6 +86,11 @@ def _run(arguments: list[str] | None) -> int:
     except (KeyboardInterrupt, click.Abort):
         complain("interrupted.")
         return INTERRUPTED
+    except ModuleNotFoundError as error:
+        if error.name not in OPTIONAL:
+            raise
+        complain(f"this needs {error.name}, which is not installed. Run: pip install {OPTIONAL[error.name]}")
+        return MISTAKE
     except MemoryError:
         complain("there is not enough memory for this.")
         return FAILURE

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from importlib.util import find_spec
 from pathlib import Path
 from time import strftime, strptime
 
@@ -40,6 +41,11 @@ class TrainingController:
 
     def start(self, request: TrainingRequest) -> str | None:
         """Begin a training; returns its id, or None if it cannot begin."""
+        if find_spec("torch") is None or find_spec("safetensors") is None:
+            self._report(
+                "Training needs torch and safetensors, which are not installed. Run: pip install torch safetensors"
+            )
+            return None
         if not request.data or (Path(request.data).is_absolute() and not Path(request.data).is_dir()):
             self._report(
                 f"There is no folder {request.data!r} to train on. Choose one that holds at least four shapes."

@@ -118,3 +118,12 @@ def test_a_training_that_is_told_to_end_keeps_its_last_step(folder, tmp_path):
     assert f"Stopped on request after step {last} of 100000" in err
     kept = torch.load(tmp_path / "run" / "checkpoint.pt", weights_only=True)
     assert kept["step"] == last
+
+
+def test_without_torch_one_line_says_what_to_install(capsys, folder, tmp_path, monkeypatch):
+    monkeypatch.setitem(sys.modules, "torch", None)
+    for name in [name for name in sys.modules if name.startswith("add_core.learning")]:
+        monkeypatch.delitem(sys.modules, name)
+    status, _, err = run(capsys, "train", "--data", folder, "-o", tmp_path / "run", *SMALL)
+    assert (status, err.count("\n")) == (2, 1)
+    assert "needs torch, which is not installed. Run: pip install torch safetensors" in err

@@ -47,6 +47,13 @@ def test_a_folder_that_is_not_there_is_a_message_and_no_job(world, data):
     assert "There is no folder" in world.complaints[0]
 
 
+def test_without_torch_the_person_learns_what_to_install(world, monkeypatch):
+    monkeypatch.setattr("add_viewer.controllers.training.find_spec", lambda name: None)
+    assert world.trainings.start(TrainingRequest()) is None
+    assert "pip install torch safetensors" in world.complaints[0]
+    assert world.jobs.all == ()
+
+
 def test_a_better_checkpoint_is_announced_once_it_is_there(world):
     id = world.trainings.start(TrainingRequest())
     world.jobs.said.emit(id, {"event": "validation", "step": 5, **SCORES, "improved": True})
