@@ -9,7 +9,7 @@ from pathlib import Path
 import click
 
 from ..contest import Describer, Pair, chosen_pairs
-from ..contest.pairs import FOREST, MAPS, REFINED
+from ..contest.pairs import FOREST, MAPS
 from ..errors import ParameterError
 from ..evaluation import Scores, averaged, save_report, table
 from ..evaluation.baselines import BASELINES
@@ -37,7 +37,7 @@ COLLECTIONS = {"humans": humans, "poses": poses, "dogs": dogs}
     show_default="hks,wks,ahks without RUN",
     help=f"Some of {', '.join(BASELINES)}, {MAPS} "
     f"(functional maps), {FOREST} (random forest) or models of add-core train, with commas; "
-    f"{REFINED} after one refines its matches.",
+    f"+zoomout after one refines its matches, +zoomout-plain does so without a guide.",
 )
 @click.option("--protocol", type=click.Choice(["all", *PROTOCOLS]), default="all", show_default=True)
 @click.option("--pairs", type=click.IntRange(min=1), default=6, show_default=True, help="Pairs of test shapes.")

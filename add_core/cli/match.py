@@ -12,7 +12,15 @@ from ..correspondence import icp, nearest_matches, zoomout
 from ..correspondence.functional_map import FunctionalMap
 from ..errors import ParameterError
 from ..evaluation import match_errors, surface_area
-from ..evaluation.baselines import BASELINES, DIRECTED, describe_with, functional_map_matches, isotropic
+from ..evaluation.baselines import (
+    BASELINES,
+    DIRECTED,
+    UNDIRECTED,
+    describe_with,
+    functional_map_matches,
+    isotropic,
+    refined_matches,
+)
 from ..geometry import PointCloud, TriangleMesh, normalize
 from ..geometry.pair_distances import PairDistances
 from ..io import save_arrays, save_shape, shipped_place
@@ -20,7 +28,7 @@ from ..spectra import SpectralFamily, compute_spectra
 from .reporting import Advance, progress, result
 from .shapes import open_shape
 
-REFINEMENTS = ("none", "fm", "icp", "zoomout")
+REFINEMENTS = ("none", "fm", "icp", "zoomout", "zoomout-plain")
 
 
 @click.command("match")
@@ -33,7 +41,11 @@ REFINEMENTS = ("none", "fm", "icp", "zoomout")
     help=f"{', '.join(BASELINES)}, fm (functional maps), or a model of add-core train.",
 )
 @click.option(
-    "--refine", type=click.Choice(REFINEMENTS), default="zoomout", show_default=True, help="By a functional map."
+    "--refine",
+    type=click.Choice(REFINEMENTS),
+    default="zoomout",
+    show_default=True,
+    help="By a functional map; zoomout is guided by descriptors that tell left from right, zoomout-plain is not.",
 )
 @click.option(
     "--size", type=click.IntRange(min=4), default=120, show_default=True, help="Eigenfunctions to refine with."
@@ -79,11 +91,16 @@ def command(
     """
     shapes = open_shape(first), open_shape(second)
     true = None if truth is None else _truth(truth, shapes[1].vertex_count)
-    alphas = (0.0, alpha) if descriptor in DIRECTED else (0.0,)
+    guided = refine == "zoomout" and descriptor in UNDIRECTED
+    alphas = (0.0, alpha) if descriptor in DIRECTED or guided else (0.0,)
     with progress("Spectra", as_json=as_json) as advance:
         families = _families(shapes, alphas, angles, count, advance)
-    raw = _raw(descriptor, shapes, families)
-    matches, found = _refined(raw, families, refine, size)
+    if descriptor == "fm":
+        raw, guides = functional_map_matches(*families), None
+    else:
+        described = _described(descriptor, shapes, families)
+        raw, guides = nearest_matches(described[1], described[0]), None if guided else described
+    matches, found = _refined(raw, families, refine, size, guides)
     errors = {} if true is None else _errors(first, shapes[0], true, raw, matches)
     _save(output, raw, matches, errors)
     if colors is not None:
@@ -158,30 +175,34 @@ def _families(
     return found[0], found[1]
 
 
-def _raw(
+def _described(
     descriptor: str,
     shapes: tuple[TriangleMesh | PointCloud, TriangleMesh | PointCloud],
     families: tuple[SpectralFamily, SpectralFamily],
-) -> IntArray:
-    if descriptor == "fm":
-        return functional_map_matches(*families)
+) -> tuple[FloatArray, FloatArray]:
     if descriptor in BASELINES:
         one, two = (describe_with(descriptor, family) for family in families)
     else:
         from ..learning import load_model
 
         model = load_model(descriptor)
-        one, two = (np.asarray(model.embed(shape), dtype=np.float64) for shape in shapes)
-    return nearest_matches(two, one)
+        one, two = (np.asarray(model.describe(shape), dtype=np.float64) for shape in shapes)
+    return one, two
 
 
 def _refined(
-    matches: IntArray, families: tuple[SpectralFamily, SpectralFamily], refine: str, size: int
+    matches: IntArray,
+    families: tuple[SpectralFamily, SpectralFamily],
+    refine: str,
+    size: int,
+    guides: tuple[FloatArray, FloatArray] | None,
 ) -> tuple[IntArray, FunctionalMap | None]:
     if refine == "none":
         return matches, None
     one, two = isotropic(families[0]), isotropic(families[1])
     if refine == "zoomout":
+        found = refined_matches(*families, matches, guides=guides, size=size)
+    elif refine == "zoomout-plain":
         found = zoomout(one, two, matches, stop=size)
     else:
         most = min(size, len(one.eigenvalues), len(two.eigenvalues))

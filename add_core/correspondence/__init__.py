@@ -3,6 +3,7 @@
 from .forest import CorrespondenceForest
 from .functional_equations import Weights
 from .functional_map import FunctionalMap
+from .guided_zoomout import guided_zoomout
 from .icp import icp
 from .mirror import MirrorSymmetry, mirror_symmetry
 from .nearest import MutualMatches, mutual_matches, nearest_matches
@@ -20,6 +21,7 @@ __all__ = [
     "TransferredColors",
     "Weights",
     "coordinate_colors",
+    "guided_zoomout",
     "icp",
     "intrinsic_symmetry",
     "mirror_symmetry",

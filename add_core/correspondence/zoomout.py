@@ -46,7 +46,9 @@ def zoomout(
     size = min(found.map_12.shape)
     if stop < size:
         raise ParameterError(f"stop must be at least {size}, the size of the map to start with, but it is {stop}.")
-    rows = _sample(spectrum_2, samples, seed)
+    rows = None if samples is None else sampled_by_area(spectrum_2, samples, seed)
+    if rows is not None and len(rows) == np.count_nonzero(spectrum_2.mass > 0):
+        rows = None
     while size < stop:
         size = min(size + step, stop)
         chosen = rows if size < stop else None
@@ -55,12 +57,14 @@ def zoomout(
     return found
 
 
-def _sample(spectrum: Spectrum, samples: int | None, seed: int) -> IntArray | None:
-    """Points drawn by their share of the area, so that finely meshed hands and faces do not outvote the rest."""
+def sampled_by_area(spectrum: Spectrum, samples: int, seed: int) -> IntArray:
+    """(samples,) vertices, ascending, or all that have mass if there are no more.
+
+    Drawn by their share of the area, so that finely meshed hands and faces do not outvote the rest.
+    """
     massive = np.flatnonzero(spectrum.mass > 0)
-    if samples is None or samples >= len(massive):
-        return None
-    count_in("samples", samples, 1, len(massive))
+    if count_in("samples", samples, 1, 10**9) >= len(massive):
+        return massive
     shares = spectrum.mass[massive] / spectrum.mass[massive].sum()
     drawn = np.random.default_rng(seed).choice(massive, size=samples, replace=False, p=shares)
     return np.sort(drawn)

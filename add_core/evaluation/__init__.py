@@ -1,6 +1,6 @@
 """The paper's three protocols, symmetric and asymmetric, and the share of points on the right side."""
 
-from .baselines import describe_with, functional_map_matches, isotropic
+from .baselines import describe_with, functional_map_matches, isotropic, refined_matches
 from .cmc import CumulativeMatch, cmc
 from .princeton import PrincetonCurve, match_errors, princeton, princeton_curve, surface_area
 from .report import save_report, table
@@ -26,6 +26,7 @@ __all__ = [
     "match_scores",
     "princeton",
     "princeton_curve",
+    "refined_matches",
     "right_side",
     "roc",
     "save_report",

@@ -7,7 +7,7 @@ from collections.abc import Callable
 import numpy as np
 
 from .._check import FloatArray, IntArray, one_of
-from ..correspondence import FunctionalMap, zoomout
+from ..correspondence import FunctionalMap, guided_zoomout, zoomout
 from ..descriptors import (
     angular_contrast,
     anisotropic_heat_kernel_signature,
@@ -49,9 +49,24 @@ def functional_map_matches(one: SpectralFamily, two: SpectralFamily) -> IntArray
     return np.asarray(found.match_21)
 
 
-def refined_matches(one: SpectralFamily, two: SpectralFamily, match_21: IntArray) -> IntArray:
-    """ZoomOut of matches (n2,) on the isotropic eigenfunctions of both shapes: (n2,)."""
-    return np.asarray(zoomout(isotropic(one), isotropic(two), match_21).match_21)
+def refined_matches(
+    one: SpectralFamily,
+    two: SpectralFamily,
+    match_21: IntArray,
+    *,
+    guides: tuple[FloatArray, FloatArray] | None = None,
+    size: int = 120,
+) -> FunctionalMap:
+    """ZoomOut of matches (n2,) on the isotropic eigenfunctions of both shapes, guided by descriptors.
+
+    guides : descriptors (n1, d) and (n2, d) that tell left from right; None takes AHKS, which families with an α > 0
+        hold. size : eigenfunctions of the map. Families of α = 0 alone know no directions: `zoomout` without a guide.
+    """
+    spectra = isotropic(one), isotropic(two)
+    if guides is None and not (one.alphas > 0).any():
+        return zoomout(*spectra, match_21, stop=size)
+    known = guides if guides is not None else (describe_with("ahks", one), describe_with("ahks", two))
+    return guided_zoomout(*spectra, *known, initial=match_21, stop=size)
 
 
 def _hks(family: SpectralFamily) -> FloatArray:
@@ -119,3 +134,5 @@ BASELINES: dict[str, Callable[[SpectralFamily], FloatArray]] = {
 }
 DIRECTED = ("ahks", "geometry-vectors")
 """Baselines that look at every angle."""
+UNDIRECTED = ("fm", *(name for name in BASELINES if name not in DIRECTED))
+"""Baselines, functional maps among them, that cannot tell left from right."""

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from math import degrees, pi
 
+from add_core.evaluation.baselines import UNDIRECTED
+
 from ..models.descriptor_names import PLAIN
 from ..models.fields import FieldChoice, FieldKind
 from ..models.picks import Pick
@@ -276,7 +278,9 @@ def _found_matches(script: Script) -> None:
     count, size = min(COUNT, fewest - 1), max(4, min(120, fewest - 1))
     script.use("add_core.spectra", "compute_spectra")
     plain = any(each.name == matching.descriptor for each in PLAIN)
-    alphas = "(0.0, 50.0)" if matching.descriptor in _DIRECTED and matching.method != "functional-map" else "(0.0,)"
+    directed = matching.descriptor in _DIRECTED and matching.method != "functional-map"
+    guided = matching.method == "zoomout" and matching.refined and matching.descriptor in UNDIRECTED
+    alphas = "(0.0, 50.0)" if directed or guided else "(0.0,)"
     spectra = f"compute_spectra(shape, alphas={alphas}, angles=16, count={count})"
     script.say(f"families = {{name: {spectra} for name, shape in shapes.items()}}")
     if matching.method == "functional-map":
@@ -298,14 +302,30 @@ def _found_matches(script: Script) -> None:
     script.say("matches[source] = np.arange(shapes[source].vertex_count)")
 
 
+def _guides(descriptor: str) -> str:
+    """What leads ZoomOut to the right side: the descriptor itself, or AHKS, which need not be named."""
+    if descriptor in UNDIRECTED or descriptor == "ahks":
+        return ""
+    if descriptor in _DIRECTED:
+        each = (f"describe_with({descriptor!r}, families[{key}])" for key in ("source", "name"))
+    else:
+        each = (f"model.describe(shapes[{key}])" for key in ("source", "name"))
+    return f"guides=({', '.join(each)}), "
+
+
 def _refined(script: Script, size: int) -> None:
     method = script.state.matching.method
     script.use("add_core.evaluation", "isotropic")
     script.say("one = isotropic(families[source])", "for name, match in matches.items():")
     script.say("    two = isotropic(families[name])")
     if method == "zoomout":
-        script.use("add_core.correspondence", "zoomout")
-        script.say(f"    matches[name] = zoomout(one, two, match, stop={size}).match_21")
+        script.use("add_core.evaluation", "refined_matches")
+        guides = _guides(script.state.matching.descriptor)
+        options = f"{guides}size={size}" if guides else f"size={size}"
+        script.say(
+            f"    found = refined_matches(families[source], families[name], match, {options})",
+            "    matches[name] = found.match_21",
+        )
     else:
         script.use("add_core.correspondence", "FunctionalMap", *(["icp"] if method == "functional-map" else []))
         found = f"FunctionalMap.from_matches(one, two, match, count={size})"

@@ -2,7 +2,7 @@
 
     xvfb-run -a -s "-screen 0 1440x900x24" python assets/scripts/color_transfer_figure.py [mesh|cloud]...
 
-Points are matched by AHKS (α = 50, sixteen angles) and refined by ZoomOut; no learning. Writes
+Points are matched by AHKS (α = 50, sixteen angles) and refined by ZoomOut that AHKS guides; no learning. Writes
 assets/reports/color_transfer_mesh.png and _cloud.png, and prints mean geodesic errors.
 """
 
@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 import pyvista as pv
 
-from add_core.correspondence import coordinate_colors, nearest_matches, transfer_colors, zoomout
+from add_core.correspondence import coordinate_colors, guided_zoomout, nearest_matches, transfer_colors
 from add_core.evaluation import match_errors
 from add_core.evaluation.baselines import describe_with, isotropic
 from add_core.evaluation.samples import sample, truth_between
@@ -59,8 +59,9 @@ def main(variants):
         for column, number in enumerate(TARGETS, start=1):
             target = sample(collection, number, variant)
             family = spectra_of(target.shape)
-            raw = nearest_matches(describe_with("ahks", family), describe_with("ahks", spectra))
-            found = zoomout(isotropic(spectra), isotropic(family), raw)
+            described = describe_with("ahks", spectra), describe_with("ahks", family)
+            raw = nearest_matches(described[1], described[0])
+            found = guided_zoomout(isotropic(spectra), isotropic(family), *described)
             errors = [
                 match_errors(match, truth_between(target, reference), shape=reference.shape).mean()
                 for match in (raw, found.match_21)

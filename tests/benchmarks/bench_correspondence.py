@@ -3,7 +3,7 @@
 import resource
 import time
 
-from add_core.correspondence import nearest_matches, zoomout
+from add_core.correspondence import guided_zoomout, nearest_matches
 from add_core.evaluation import descriptor_scores, match_errors
 from add_core.evaluation.baselines import describe_with, isotropic
 from add_core.evaluation.samples import sample
@@ -22,7 +22,7 @@ def main() -> None:
     started = time.process_time()
     described = [describe_with("ahks", family) for family in families]
     raw = nearest_matches(described[1], described[0])
-    found = zoomout(isotropic(families[0]), isotropic(families[1]), raw).match_21
+    found = guided_zoomout(isotropic(families[0]), isotropic(families[1]), *described).match_21
     print(f"AHKS and ZoomOut, spectra given: {time.process_time() - started:.1f} s of one core (limit 10)")
     missed = [match_errors(match, two.place, shape=one.shape).mean() for match in (raw, found)]
     print("mean geodesic error ÷ √area: raw {:.3f}, ZoomOut {:.3f}".format(*missed))

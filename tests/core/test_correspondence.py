@@ -11,6 +11,7 @@ from scipy.spatial.distance import cdist
 from add_core.correspondence import (
     FunctionalMap,
     Weights,
+    guided_zoomout,
     icp,
     mutual_matches,
     nearest_matches,
@@ -142,6 +143,28 @@ def test_icp_and_zoomout_recover_an_isometry_exactly_from_disturbed_matches(isom
     assert_array_equal(zoomout(one, two, start, stop=60).match_21, order)
 
 
+def test_a_guide_leads_matches_of_the_wrong_side_back(isometry):
+    """An ellipsoid, whose mirror image is as good an isometry: ZoomOut keeps the mirror image that it is given, and
+    a faint hint of the right side, drowned in noise at each point, turns the whole map round."""
+    ball = ellipsoid(1.0, 1.2, 1.5, subdivisions=3)
+    spectrum, same = spectrum_of(ball), np.arange(ball.vertex_count)
+    mirror = cdist(ball.vertices * [-1, 1, 1], ball.vertices).argmin(axis=1)
+    random = np.random.default_rng(3)
+    hints = [ball.vertices * [0.3, 1, 1] + 0.3 * random.normal(size=(642, 3)) for _ in range(2)]
+    assert (zoomout(spectrum, spectrum, mirror, stop=50).match_21 == mirror).mean() > 0.95
+    found = guided_zoomout(spectrum, spectrum, *hints, initial=mirror, stop=60)
+    assert (found.match_21 == same).mean() > 0.95
+    assert found.map_12.shape == (60, 60)
+    assert_array_equal(guided_zoomout(spectrum, spectrum, *hints, initial=mirror, stop=60).map_12, found.map_12)
+
+
+def test_a_guided_map_needs_no_other_start_than_its_descriptors(isometry):
+    mesh, _, order, one, two = isometry
+    places = mesh.vertices @ mesh.vertices.T[:, ::40]
+    assert_array_equal(guided_zoomout(one, two, places, places[order]).match_21, order)
+    assert guided_zoomout(one, two, places, places[order], stop=8).map_12.shape == (8, 8)
+
+
 def test_icp_returns_orthonormal_columns(isometry):
     _, _, order, one, two = isometry
     start = FunctionalMap.from_matches(one, two, order, count=(20, 30))
@@ -204,7 +227,9 @@ BAD = [
     ),
     (lambda s, m: FunctionalMap.from_matches(s, s, m).transfer(np.ones(3)), "field_1 must have 642 rows, but it has 3"),
     (lambda s, m: zoomout(s, s, FunctionalMap.from_matches(s, s, m), stop=20), "stop must be at least 50"),
-    (lambda s, m: zoomout(s, s, m, samples=0), "samples must be from 1 to 642, but it is 0"),
+    (lambda s, m: zoomout(s, s, m, samples=0), "samples must be from 1 to 1000000000, but it is 0"),
+    (lambda s, m: guided_zoomout(s, s, np.ones((5, 2)), np.ones((642, 2))), "descriptors_1 must have 642 rows"),
+    (lambda s, m: guided_zoomout(s, s, np.ones((642, 2)), np.ones((642, 2)), weight=0), "weight must be"),
     (
         lambda s, m: nearest_matches([[0.0], [np.inf]], [[1.0]]),
         "queries must be finite, but 1 of 2 rows are not (first: 1)",

@@ -155,4 +155,4 @@ def test_functional_maps_and_their_refinement_find_a_shape_in_itself():
     bump = sphere(2).vertices * (1 + 0.3 * (sphere(2).vertices @ [0.5, 0.3, 0.2]) ** 3)[:, None] * [1, 1.2, 1.5]
     family = compute_spectra(TriangleMesh(bump, sphere(2).faces), alphas=(0.0,), angles=1, count=40, cache=False)
     matches = functional_map_matches(family, family)
-    assert_array_equal(refined_matches(family, family, matches), np.arange(162))
+    assert_array_equal(refined_matches(family, family, matches).match_21, np.arange(162))
