@@ -47,9 +47,12 @@ UPRIGHT = 0.6
 """Width / height of what usually stands in a view."""
 
 
-def columns(count: int, layout: Layout, aspect: float) -> int:
-    """Columns of a grid of `count` views in a room of this width / height: upright shapes as large as they can be."""
+def columns(count: int, layout: Layout, aspect: float, *, step: int = 1) -> int:
+    """Columns of a grid of `count` views in a room of this width / height: upright shapes as large as they can be.
+
+    step : columns are a multiple of it, so that a split view never breaks the row of one field.
+    """
     if layout != "grid" or count < 1:
         return max(count, 1)
-    sizes = {wide: min(aspect / (UPRIGHT * wide), 1.0 / -(-count // wide)) for wide in range(1, count + 1)}
+    sizes = {wide: min(aspect / (UPRIGHT * wide), 1.0 / -(-count // wide)) for wide in range(step, count + 1, step)}
     return max(sizes, key=lambda wide: (sizes[wide], -wide))

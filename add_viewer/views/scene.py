@@ -15,6 +15,8 @@ from .theme import GRID, LIGHT, Theme
 
 _TOOL = 30
 _GAP = 1
+_NARROWEST = 200
+"""Width of a view below which two rows are better than one."""
 
 
 class SceneView(QWidget):
@@ -94,11 +96,12 @@ class SceneView(QWidget):
                 view.canvas.face(old[0].canvas)
 
     def _columns(self, count: int) -> int:
-        state = self._session.state
-        shapes = len(state.shown)
-        if state.compare is not None:
-            return shapes if shapes > 1 else 2
-        return columns(count, state.arrangement.layout, self.width() / max(self.height(), 1))
+        state, aspect = self._session.state, self.width() / max(self.height(), 1)
+        if state.compare is None:
+            return columns(count, state.arrangement.layout, aspect)
+        shapes = count // 2
+        wide = columns(count, "grid", aspect, step=shapes)
+        return shapes if shapes > 1 and self.width() < _NARROWEST * wide else wide
 
     def _arranged(self) -> None:
         self._lay_out()

@@ -77,3 +77,8 @@ def test_the_value_under_the_cursor_has_symbol_and_unit():
 def test_a_grid_makes_upright_views_large(count, aspect, expected):
     assert columns(count, "grid", aspect) == expected
     assert columns(count, "strip", aspect) == count
+
+
+@pytest.mark.parametrize(("aspect", "expected"), [(2.0, 4), (0.7, 2)])
+def test_a_split_view_of_two_shapes_stands_in_one_row_or_in_two(aspect, expected):
+    assert columns(4, "grid", aspect, step=2) == expected
