@@ -130,7 +130,8 @@ def _readable(line: str) -> str:
     if not isinstance(event, dict) or event.get("event") in ("progress", "step", "prepare"):
         return ""
     kind = event.pop("event", "")
+    known = {name: value for name, value in event.items() if value is not None and not isinstance(value, bool)}
     facts = ", ".join(
-        f"{name} {value:.4g}" if isinstance(value, float) else f"{name} {value}" for name, value in event.items()
+        f"{name} {value:.4g}" if isinstance(value, float) else f"{name} {value}" for name, value in known.items()
     )
-    return f"{kind}: {facts}"
+    return f"{kind}: {facts}" + (", the best so far" if event.get("improved") else "")

@@ -17,7 +17,7 @@ MOST_AT_ONCE = 2
 """Jobs that run at the same time, at most one of them long: what somebody waits for never queues behind trainings."""
 
 PASSING_KINDS = frozenset({"describe", "spectra", "match", "symmetry"})
-"""Their results are in the session or the cache: once they are over nobody looks for them after a new start."""
+"""Whoever asked for them is gone with the window; the next one asks anew, and finds their spectra in the cache."""
 
 _COMPLAINT = "add-core: "
 _STOPPED_BY_OTHERS = frozenset({-15, -9, -2, 130})
@@ -96,14 +96,21 @@ class JobsController:
             job = kept.job
             if kept.window != self._window and self._is_alive(kept.window):
                 continue  # another window's
-            if job.state == "running" and self._is_alive(kept.process):
-                self._follow(job, kept.process)
-            elif job.state in ("running", "waiting"):
+            if job.request.kind in PASSING_KINDS:
+                self._end_orphan(job, kept.process)
+            elif job.state == "running":
+                self._follow(job, kept.process)  # it may have ended meanwhile, well or badly: its output tells
+            elif job.state == "waiting":
                 self._put(replace(job, state="interrupted", message=_interruption(job)))
-            elif job.state == "done" and job.request.kind in PASSING_KINDS:
-                self._dispose(job.request.folder)
             else:
                 self._jobs.put(job)
+
+    def _end_orphan(self, job: Job, process: Stamp) -> None:
+        """Nobody waits for its answer any more."""
+        if self._is_alive(process):
+            folder = job.request.folder
+            self._processes.follow(process.pid, process.began, folder, said=_ignore, ended=_ignore).kill()
+        self._dispose(job.request.folder)
 
     def stop(self) -> None:
         """End what runs and what waits, so that the next window can offer to go on with it."""
@@ -189,7 +196,7 @@ class JobsController:
             for event in events:
                 self._jobs.said.emit(id, event)
 
-        self._processes.follow(0, "", self._jobs[id].request.folder, said=said, ended=lambda status, words: None)
+        self._processes.follow(0, "", self._jobs[id].request.folder, said=said, ended=_ignore)
 
     # -- what happens -------------------------------------------------------------------------------------------------
 
@@ -253,6 +260,10 @@ class JobsController:
     @property
     def _window(self) -> Stamp:
         return Stamp.of(self._processes.window)
+
+
+def _ignore(*_: object) -> None:
+    """Hears what nobody wants to know."""
 
 
 def _has_failed(status: int | None, words: str) -> bool:

@@ -32,7 +32,7 @@ GRACE = 5000
 Said = Callable[[list[dict[str, Any]], bool], None]
 """Takes events, and whether they are news (not read again from the file)."""
 Ended = Callable[[int | None, str], None]
-"""Takes the exit status, None if unknown, and the last line of text on stderr."""
+"""Takes the exit status, None if unknown, and the last line of text in the log."""
 
 _START = (
     "import json, os, sys; sys.path[:] = json.loads(os.environ.pop('ADD_CORE_SEARCH_PATH')); "
@@ -70,6 +70,8 @@ class CommandProcess:
         mode = "wb" if anew else "ab"
         with (folder / OUTPUT).open(mode) as output, (folder / LOG).open(mode) as log:
             made = cls(ProcessIdentity(0, ""), folder, said, ended)
+            log.write(f"Started on {time.strftime('%d %B %Y, %H:%M:%S')}\n".encode())
+            log.flush()
             made._own = subprocess.Popen(
                 [sys.executable, "-P", "-c", _START, *arguments, "--json"],
                 stdin=subprocess.DEVNULL,
@@ -116,8 +118,7 @@ class CommandProcess:
         is_news = not any(tail.is_old for tail in self._tails)
         lines = [line for tail in self._tails for line in tail.lines()]
         events = [event for line in lines if (event := event_of(line)) is not None]
-        if is_news:
-            self._last_words = next((line for line in reversed(lines) if _is_text(line)), self._last_words)
+        self._last_words = next((line for line in reversed(lines) if _is_text(line)), self._last_words)
         if events:
             self._said(events, is_news)
         if is_alive or any(tail.has_more for tail in self._tails):

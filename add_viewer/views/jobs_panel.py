@@ -62,7 +62,7 @@ class JobsPanel(QWidget):
         column.addWidget(self._offer_row)
         column.addLayout(self._list)
         column.addStretch(1)
-        scroll = QScrollArea()
+        self._scroll = scroll = QScrollArea()
         scroll.setWidget(listed)
         scroll.setWidgetResizable(True)
         scroll.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
@@ -106,7 +106,7 @@ class JobsPanel(QWidget):
         row = self.rows[job.id] = JobRow(job, self._theme)
         row.setFrameShape(QFrame.Shape.NoFrame)
         row.asked.connect(lambda verb, id=job.id: getattr(self._jobs, verb)(id))
-        row.log_opened.connect(lambda on, id=job.id: self._show_log(id) if on else None)
+        row.log_opened.connect(lambda on, id=job.id: self._open_log(id) if on else None)
         self._list.insertWidget(0, row)  # the newest first
 
     def _remove(self, id: str) -> None:
@@ -119,6 +119,10 @@ class JobsPanel(QWidget):
         row = self.rows.get(id)
         if row is not None and row.log_button.isChecked() and self.isVisible():
             row.show_log(self._read_log(id))
+
+    def _open_log(self, id: str) -> None:
+        self._show_log(id)
+        QTimer.singleShot(0, lambda: self._scroll.ensureWidgetVisible(self.rows[id]) if id in self.rows else None)
 
     def _resume_all(self) -> None:
         for job in self._jobs.listed:

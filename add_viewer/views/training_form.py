@@ -14,6 +14,7 @@ from PySide6.QtWidgets import (
     QGridLayout,
     QHBoxLayout,
     QLabel,
+    QLayout,
     QLineEdit,
     QPushButton,
     QVBoxLayout,
@@ -24,7 +25,7 @@ from ..models.training import ARCHITECTURES, CLASSIFICATION, DATA, EFFORTS, LOSS
 from .number_field import NumberField
 from .theme import GRID
 
-_COLUMN = 24 * GRID
+_COLUMN, _HELP_COLUMN = 24 * GRID, 40 * GRID
 TWIN_HELP = "The same layers without any direction: what directions are worth is the difference."
 BUDGET_HELP = (
     "Mini-batches in all, or time on this machine once the inputs are computed. The learning rate falls over it."
@@ -61,6 +62,7 @@ class TrainingForm(QDialog):
                 box.addItem(option.title, option)
         for effort in EFFORTS:
             self.effort.addItem(effort.title, effort)
+        self.effort.setPlaceholderText("Numbers of your own")
         self.unit.addItems(["steps", "minutes"])
         buttons = QHBoxLayout()
         buttons.setSpacing(GRID)
@@ -74,6 +76,7 @@ class TrainingForm(QDialog):
         layout = QVBoxLayout(self)
         layout.setContentsMargins(3 * GRID, 2 * GRID, 3 * GRID, 2 * GRID)
         layout.setSpacing(2 * GRID)
+        layout.setSizeConstraint(QLayout.SizeConstraint.SetFixedSize)  # follows the rows that come and go
         layout.addLayout(self._rows())
         layout.addLayout(buttons)
 
@@ -97,7 +100,7 @@ class TrainingForm(QDialog):
             label.setBuddy(_first_field(control))
             help_text.setProperty("role", "muted")
             help_text.setWordWrap(True)
-            help_text.setFixedWidth(36 * GRID)
+            help_text.setFixedWidth(_HELP_COLUMN)
             control.setFixedWidth(_COLUMN)
             self._help[name] = help_text
             for column, widget in enumerate((label, control, help_text)):
@@ -191,6 +194,7 @@ class TrainingForm(QDialog):
         blocked = [QSignalBlocker(box) for box in boxes]
         self.data.setCurrentIndex(shipped)
         self.folder.setText(request.data if shipped == len(DATA) - 1 else "")
+        self.folder.setToolTip(self.folder.text())
         self.architecture.setCurrentText(request.architecture)
         self.isotropic.setChecked(request.isotropic)
         self.effort.setCurrentIndex(-1 if request.effort is None else EFFORTS.index(request.effort))
@@ -221,14 +225,16 @@ class TrainingForm(QDialog):
             "folder": "At least four shapes with known correspondence: equal faces, or .vts or .map files beside them.",
             "architecture": self.architecture.currentData().help,
             "isotropic": TWIN_HELP,
-            "effort": "Numbers of your own, below." if effort is None else effort.help,
+            "effort": "Choose one to have its numbers again." if effort is None else effort.help,
             "amount": "More of each makes a better descriptor, and takes longer to prepare.",
             "budget": BUDGET_HELP,
             "loss": self.loss.currentData().help,
             "seed": SEED_HELP,
         }
         for name, text in texts.items():
-            self._help[name].setText(text)
+            label = self._help[name]
+            label.setText(text)
+            label.setFixedHeight(label.heightForWidth(_HELP_COLUMN))
 
 
 LIMITS = {

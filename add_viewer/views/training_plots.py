@@ -2,18 +2,21 @@
 
 from __future__ import annotations
 
+from bisect import bisect_left
+
 from PySide6.QtCore import QRectF, QSize, Qt
-from PySide6.QtGui import QColor, QFont, QFontMetricsF, QMouseEvent, QPainter, QPaintEvent
+from PySide6.QtGui import QColor, QFont, QMouseEvent, QPainter, QPaintEvent
 from PySide6.QtWidgets import QWidget
 
 from add_core.drawing.colours import MARKERS, hex_colour
 
 from ..models.training_curves import SCORE_HELP, SCORES, TrainingCurves, Validation, binned
-from .plot import ABOVE, RIGHT, Line, Plot, round_ticks
+from .plot import Line, Plot, round_ticks
 from .theme import LIGHT, Theme
 
 _LEAST_WIDTH = 520
 _POINTS = 80
+_SHARES = (0.0, 0.5, 1.0)
 _COLOURS = dict(zip(SCORES, MARKERS, strict=False))
 
 
@@ -55,20 +58,30 @@ class TrainingPlots(QWidget):
 
     def _paint(self, painter: QPainter) -> None:
         left, right = self._halves()
-        end = max(self._curves.total, self._curves.last_step)
-        lines = self._loss_lines()
-        highest = max((max(line.y) for line in lines if line.y), default=1.0)
-        loss = Plot(painter, left, self._theme, end, 1.05 * highest)
-        loss.axes("Loss", round_ticks(0, 1.05 * highest, 4))
+        end, seen = max(self._curves.total, self._curves.last_step), self._seen()
+        lines = self._loss_lines(seen)
+        highest = 1.05 * max(max(line.y) for line in lines)
+        loss = Plot(painter, left, self._theme, end, highest)
+        loss.axes("Loss", round_ticks(0, highest, 4))
         loss.lines(lines)
         scores = Plot(painter, right, self._theme, end, 1.0)
-        scores.axes("On unseen shapes", [0.0, 0.5, 1.0])
-        scores.lines(self._score_lines())
+        scores.axes(
+            "On unseen shapes" + (f", after step {seen.step:,}" if self._hovered >= 0 and seen else ""), _SHARES
+        )
+        scores.lines(self._score_lines(seen))
         best = self._curves.best
         if best is not None:
             scores.ring(best.step, best.cmc1, QColor(hex_colour(_COLOURS["cmc1"])))
         self._plots = [loss, scores]
-        self._paint_hovered(painter)
+        if seen is not None and self._hovered >= 0:
+            for plot in self._plots:
+                plot.upright(seen.step, self._theme.colour("muted"))
+
+    def _seen(self) -> Validation | None:
+        """The validation whose numbers are shown: the one under the cursor, or the latest."""
+        if self._hovered < 0 or not self._curves.validations:
+            return self._curves.latest
+        return min(self._curves.validations, key=lambda each: abs(each.step - self._hovered))
 
     def _halves(self) -> tuple[QRectF, QRectF]:
         """Side by side, or one above the other where there is no room."""
@@ -79,22 +92,25 @@ class TrainingPlots(QWidget):
         half = whole.height() / 2
         return whole.adjusted(0, 0, 0, -half), whole.adjusted(0, half, 0, 0)
 
-    def _loss_lines(self) -> list[Line]:
+    def _loss_lines(self, seen: Validation | None) -> list[Line]:
         curves, theme = self._curves, self._theme
         steps, losses = binned(curves.steps, curves.losses, _POINTS)
-        seen = Line(f"training {losses[-1]:.2f}", steps, losses, theme.colour("muted"), 1.0, dots=False)
-        if not curves.validations:
-            return [seen]
+        where = len(steps) - 1 if seen is None or self._hovered < 0 else bisect_left(steps, seen.step)
+        now = losses[min(where, len(losses) - 1)]
+        training = Line(f"training {now:.2f}", steps, losses, theme.colour("muted"), 1.0, dots=False)
+        if seen is None:
+            return [training]
         x, y = [each.step for each in curves.validations], [each.loss for each in curves.validations]
-        return [seen, Line(f"unseen {y[-1]:.2f}", x, y, theme.colour("accent"))]
+        return [training, Line(f"unseen {seen.loss:.2f}", x, y, theme.colour("accent"))]
 
-    def _score_lines(self) -> list[Line]:
+    def _score_lines(self, seen: Validation | None) -> list[Line]:
         lines = []
         for name, title in SCORES.items():
             known = [each for each in self._curves.validations if getattr(each, name) is not None]
-            if known:
+            value = None if seen is None else getattr(seen, name)
+            if known and value is not None:
                 x, y = [each.step for each in known], [getattr(each, name) for each in known]
-                lines.append(Line(f"{title} {y[-1]:.2f}", x, y, QColor(hex_colour(_COLOURS[name]))))
+                lines.append(Line(f"{title} {value:.2f}", x, y, QColor(hex_colour(_COLOURS[name]))))
         return lines
 
     # -- hovering -----------------------------------------------------------------------------------------------------
@@ -110,26 +126,6 @@ class TrainingPlots(QWidget):
     def leaveEvent(self, _event: object) -> None:
         self._hovered = -1.0
         self.update()
-
-    def _paint_hovered(self, painter: QPainter) -> None:
-        if self._hovered < 0 or not self._curves.validations:
-            return
-        nearest = min(self._curves.validations, key=lambda each: abs(each.step - self._hovered))
-        for plot in self._plots:
-            plot.upright(nearest.step, self._theme.colour("muted"))
-        inside = self._plots[1].inside
-        room = QRectF(inside.left(), inside.top() - ABOVE, inside.width() + RIGHT, ABOVE - 2)
-        painter.setPen(self._theme.colour("muted"))
-        words = QFontMetricsF(painter.font()).elidedText(
-            _scores_of(nearest), Qt.TextElideMode.ElideRight, room.width() - 110
-        )
-        painter.drawText(room.adjusted(110, 0, 0, 0), Qt.AlignmentFlag.AlignVCenter, words)
-
-
-def _scores_of(validation: Validation) -> str:
-    known = {title: getattr(validation, name) for name, title in SCORES.items()}
-    scores = ", ".join(f"{title} {value:.3f}" for title, value in known.items() if value is not None)
-    return f"step {validation.step:,}: {scores}"
 
 
 def _small(font: QFont) -> QFont:

@@ -24,6 +24,10 @@ class FakeProcess:
     ended: object
     anew: bool = False
     asked: bool = False
+    killed: bool = False
+
+    def kill(self) -> None:
+        self.killed = True
 
     def ask_to_end(self) -> None:
         self.asked = True
@@ -203,19 +207,40 @@ def test_the_next_window_offers_what_the_closed_one_left(world, tmp_path):
     assert after.jobs[waiting].state == "running"
 
 
-def test_the_window_after_a_crash_follows_what_still_runs_and_tells_how_it_ends(world, tmp_path):
-    lives, died, done = world.start(), world.start("spectra"), world.start("match")
-    world.process(died).ended(0, "")
-    world.process(lives)
-    process = world.process(lives).identity
+def test_the_window_after_a_crash_follows_what_runs_and_tells_how_everything_ended(world, tmp_path):
+    training, evaluation, waiting = world.start(), world.start("evaluate"), world.start()
+    process = world.process(training).identity
     after = World(tmp_path, Stamp(300, "next window"), alive={(process.pid, process.began)})
     after.controller.restore()
-    assert after.jobs[lives].state == "running"
-    assert after.jobs[done].state == "interrupted"
+    assert {job.id: job.state for job in after.jobs.all} == {
+        training: "running",
+        evaluation: "interrupted",
+        waiting: "interrupted",
+    }
     (followed,) = after.processes.followed
+    assert followed.identity == process
     followed.said([step(9), {"event": "done", "model": "m"}], False)
     followed.ended(None, "")
-    assert after.finished == [lives]
+    assert after.finished == [training]
+
+
+def test_a_training_that_finished_while_no_window_was_open_is_done(world, tmp_path):
+    id = world.start()
+    after = World(tmp_path, Stamp(300, "next window"))
+    after.controller.restore()
+    after.processes.followed[0].said([step(10), {"event": "done", "model": "m"}], False)
+    after.processes.followed[0].ended(None, "Started on 28 November 2026, 10:00:00")
+    assert after.jobs[id].state == "done"
+
+
+def test_answers_that_nobody_waits_for_any_more_are_ended_and_forgotten(world, tmp_path):
+    id = world.start("describe", resumable=False)
+    process = world.process(id).identity
+    after = World(tmp_path, Stamp(300, "next window"), alive={(process.pid, process.began)})
+    after.controller.restore()
+    assert after.jobs.all == ()
+    assert after.processes.followed[0].killed
+    assert not list(tmp_path.iterdir())
 
 
 @pytest.mark.parametrize(("words", "state"), [("add-core: the loss is nan.", "failed"), ("", "interrupted")])
@@ -278,7 +303,10 @@ def test_the_log_is_what_a_person_reads(world):
     id = world.start()
     folder = world.jobs[id].request.folder
     (folder / "output.jsonl").write_text(
-        '{"event": "step", "step": 1}\n{"event": "validation", "step": 1, "auc": 0.91}\n'
+        '{"event": "step", "step": 1}\n{"event": "validation", "step": 1, "auc": 0.91, "improved": true}\n'
     )
     (folder / "log.txt").write_text('{"event": "progress", "done": 1}\nOperator 3 was solved by ARPACK.\n')
-    assert world.controller.log(id).splitlines() == ["validation: step 1, auc 0.91", "Operator 3 was solved by ARPACK."]
+    assert world.controller.log(id).splitlines() == [
+        "validation: step 1, auc 0.91, the best so far",
+        "Operator 3 was solved by ARPACK.",
+    ]
