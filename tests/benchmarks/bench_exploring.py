@@ -1,0 +1,106 @@
+"""Click to distance map on three shapes of 6,890 vertices, descriptors being there; software rendering.
+
+Run on a screen: xvfb-run -a -s "-screen 0 1440x900x24" python tests/benchmarks/bench_exploring.py
+"""
+
+from __future__ import annotations
+
+import os
+import resource
+import statistics
+import tempfile
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+os.environ.setdefault("ADD_DATA_DIR", tempfile.mkdtemp())
+
+from PySide6.QtCore import QSettings, Qt
+from PySide6.QtTest import QTest
+
+from add_viewer.assembly import Assembly
+
+PEOPLE = ("humans/3", "humans/13", "humans/0")
+VERTICES = (6868, 5056, 3525, 3446, 1500, 3309, 6502)
+PATIENCE = 600.0
+
+
+class Bench:
+    """A real window with three people, clicked by a mouse."""
+
+    def __init__(self) -> None:
+        store = QSettings(str(Path(tempfile.mkdtemp()) / "settings.ini"), QSettings.Format.IniFormat)
+        self.assembly = Assembly([], store=store, size=(1440, 900))
+        self.assembly.window.show()
+        for key in PEOPLE:
+            self.assembly.opening.open(key)
+            self.wait(lambda key=key: self.assembly.session.state.active_key == key)
+        self.drawn: dict[str, int] = {}
+        self.assembly.results.fields_changed.connect(self._answered)
+        for view in self.assembly.window.scene.views:
+            view.canvas.painted.connect(lambda key=view.key: self._painted(key))
+
+    def _answered(self, _panel: int, key: str) -> None:
+        self.drawn[key] = 0
+
+    def _painted(self, key: str) -> None:
+        if key in self.drawn:
+            self.drawn[key] += 1
+
+    def wait(self, condition: Callable[[], bool]) -> None:
+        end = time.perf_counter() + PATIENCE
+        while not condition():
+            self.assembly.app.processEvents()
+            time.sleep(0.001)
+            if time.perf_counter() > end:
+                raise TimeoutError("the window did not get there")
+
+    def settle(self, seconds: float = 1.5) -> None:
+        end = time.perf_counter() + seconds
+        self.wait(lambda: time.perf_counter() > end)
+
+    def show(self, descriptor: str) -> None:
+        """Distances in `descriptor` on all shapes."""
+        session, results = self.assembly.session, self.assembly.results
+        session.pick(VERTICES[-1])
+        session.choose_field(kind="distance", descriptor=descriptor)
+
+        def there() -> bool:
+            fields = [results.fields.get((0, key)) for key in PEOPLE]
+            return all(field is not None and field.values is not None for field in fields)
+
+        self.wait(there)
+        self.settle()
+
+    def click(self, vertex: int) -> tuple[float, float]:
+        """Milliseconds from the click to the last of the three pictures: on the clock, and of CPU."""
+        canvas = self.assembly.window.scene.active_view.canvas
+        self.drawn.clear()
+        start, used = time.perf_counter(), _cpu()
+        place = canvas.place_of(vertex).toPoint()
+        QTest.mouseClick(canvas, Qt.MouseButton.LeftButton, Qt.KeyboardModifier.NoModifier, place)
+        self.wait(lambda: len(self.drawn) == len(PEOPLE) and all(self.drawn.values()))
+        return 1000 * (time.perf_counter() - start), 1000 * (_cpu() - used)
+
+
+def _cpu() -> float:
+    usage = resource.getrusage(resource.RUSAGE_SELF)
+    return usage.ru_utime + usage.ru_stime
+
+
+def main() -> None:
+    """Print the table."""
+    bench = Bench()
+    for descriptor in ("hks", "wks", "ahks", "humans-madd3"):
+        bench.show(descriptor)
+        taken = []
+        for vertex in VERTICES * 2:
+            taken.append(bench.click(vertex))
+            bench.settle(0.4)
+        clock, work = (statistics.median(column) for column in zip(*taken, strict=True))
+        print(f"click to distance map, {descriptor:13s} {clock:8.0f} ms   (aim 150)   {work:5.0f} ms of CPU")
+    bench.assembly.stop()
+
+
+if __name__ == "__main__":
+    main()
