@@ -49,9 +49,9 @@ class FigureExport:
         """Save the figure, its shapes as fine as asked for."""
         QGuiApplication.setOverrideCursor(Qt.CursorShape.WaitCursor)
         try:
-            coarse = self.page(self.plates(1.0), choice)
-            pixels = choice.dpi * coarse.cell / 25.4
-            shown = max(view.width() for view in self._window.scene.views)
+            views = self._window.scene.views
+            pixels = choice.dpi * choice.cell(len({view.x() for view in views})) / 25.4
+            shown = max(view.width() for view in views)
             scale = min(max(1, ceil(pixels / shown)), _FINEST)
             page = self.page(self.plates(scale), choice)
             self._saving.write(path, lambda temporary: page.save(temporary))

@@ -41,6 +41,10 @@ class PageChoice:
     bars: bool = True
     curves: bool = True
 
+    def cell(self, columns: int) -> float:
+        """Width of one of so many views side by side, in millimetres."""
+        return (self.width - 2 * _MARGIN - (columns - 1) * _GAP) / columns
+
     @property
     def has_room_for_curves(self) -> bool:
         return self.width >= _NARROWEST
@@ -55,7 +59,7 @@ class Page:
         self._plates, self._choice = plates, choice
         self.columns = 1 + max(plate.column for plate in plates)
         self.rows = 1 + max(plate.row for plate in plates)
-        self.cell = (choice.width - 2 * _MARGIN - (self.columns - 1) * _GAP) / self.columns
+        self.cell = choice.cell(self.columns)
         height, width = plates[0].pixels.shape[:2]
         self.picture = min(self.cell * height / width, _TALLEST.get(self.rows, 65.0))
         self._head = max(self._lines(plate) for plate in plates) * _LINE + (1.0 if choice.names else 0.0)

@@ -65,7 +65,8 @@ class ColourBar(Overlay):
 
     def show_small(self, on: bool, width: int) -> None:
         """Lie below the shape, at most `width` wide, instead of standing beside it."""
-        self.setFixedSize(QSize(min(self.SMALL.width(), width), self.SMALL.height()) if on else self.LARGE)
+        wide = min(self.SMALL.width(), max(width, 0))
+        self.setFixedSize(QSize(wide, self.SMALL.height()) if on else self.LARGE)
 
     def draw(self, painter: QPainter) -> None:
         if self.height() == self.SMALL.height():

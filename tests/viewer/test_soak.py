@@ -8,7 +8,7 @@ from soaking import Soaker, small_shapes
 ACTIONS = 60
 
 
-@pytest.mark.parametrize("seed", [1, 2])
+@pytest.mark.parametrize("seed", [2])
 def test_many_actions_leave_no_error_and_a_session_that_comes_back(seed, assembly, qtbot, tmp_path, monkeypatch):
     monkeypatch.setattr(sys, "excepthook", sys.excepthook)
     soaker = Soaker(assembly, seed, small_shapes(tmp_path), tmp_path, thorough=False)

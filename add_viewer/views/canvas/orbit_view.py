@@ -64,7 +64,7 @@ class OrbitView(View3D):
         if self.extent is not None:
             height = max(self.height(), 1)
             below = min(self._below / height, 0.5)
-            self.camera_model.fit(self.extent, self.width() / height, below)
+            self.camera_model.fit(self.extent, max(self.width(), 1) / height, below)
         self._fitted = True
         self._place_camera()
 

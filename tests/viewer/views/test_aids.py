@@ -75,7 +75,7 @@ def test_what_was_done_last_is_offered_first_also_after_a_restart(person, palett
 def test_a_shipped_shape_opens_by_its_name(person, palette, qtbot):
     qtbot.keyClicks(palette.field, "dog 4")
     qtbot.keyClick(palette.field, Qt.Key.Key_Return)
-    qtbot.waitUntil(lambda: person.session.state.active_key == "dogs/3", timeout=20000)
+    qtbot.waitUntil(lambda: person.session.state.active_key == "dogs/3", timeout=90000)
 
 
 def test_what_cannot_be_done_now_does_nothing(person, palette, qtbot):

@@ -17,7 +17,7 @@ def heated(person, make_torus, qtbot):
     """A torus with heat on it."""
     person.session.add_shape(make_torus())
     person.session.pick(3)
-    qtbot.waitUntil(lambda: person.window.view.field is not None, timeout=20000)
+    qtbot.waitUntil(lambda: person.window.view.field is not None, timeout=90000)
     return person
 
 
@@ -25,7 +25,7 @@ def record(person, qtbot, path: Path, choice: AnimationChoice) -> list[np.ndarra
     """Its pictures, once the file is there."""
     person.assembly.animations.record(path, choice)
     assert person.assembly.animations.bar.isVisible()
-    qtbot.waitUntil(path.exists, timeout=60000)
+    qtbot.waitUntil(path.exists, timeout=90000)
     qtbot.waitUntil(lambda: not person.assembly.animations.bar.isVisible())
     with Image.open(path) as gif:
         pictures = []
@@ -72,7 +72,7 @@ def test_cancel_leaves_no_file_and_everything_as_it_was(heated, qtbot, tmp_path)
     state = heated.session.state
     animations = heated.assembly.animations
     animations.record(tmp_path / "sweep.gif", AnimationChoice("theta", 240, 8.0, 25))
-    qtbot.waitUntil(lambda: animations.bar.progress.value() >= 2, timeout=20000)
+    qtbot.waitUntil(lambda: animations.bar.progress.value() >= 2, timeout=90000)
     qtbot.mouseClick(animations.bar.cancel, Qt.MouseButton.LeftButton)
     assert heated.session.state == state
     assert not animations.bar.isVisible()

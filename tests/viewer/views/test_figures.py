@@ -21,8 +21,8 @@ def heated(person, make_torus, qtbot):
     person.session.add_shape(make_torus("right"))
     person.session.pick(3)
     curves = person.window.curves
-    qtbot.waitUntil(lambda: bool(curves.scene().shown) and curves.scene().curves[0].is_complete, timeout=20000)
-    qtbot.waitUntil(lambda: all(view.field is not None for view in person.window.scene.views), timeout=20000)
+    qtbot.waitUntil(lambda: bool(curves.scene().shown) and curves.scene().curves[0].is_complete, timeout=90000)
+    qtbot.waitUntil(lambda: all(view.field is not None for view in person.window.scene.views), timeout=90000)
     return person
 
 

@@ -7,6 +7,7 @@ import sys
 from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pytest
 from PySide6.QtCore import QPoint, Qt
 
@@ -41,7 +42,7 @@ def test_a_session_comes_back_with_picks_cameras_and_panels(person, qtbot, tmp_p
     qtbot.keyClick(person.window, Qt.Key.Key_W, Qt.KeyboardModifier.ControlModifier)
     person.canvas.look("top")
     person.window.open_requested.emit(str(path))
-    qtbot.waitUntil(lambda: len(person.session.state.shapes) == 2, timeout=20000)
+    qtbot.waitUntil(lambda: len(person.session.state.shapes) == 2, timeout=90000)
     assert worth_keeping(person) == before
     assert not person.window.curve_dock.isVisible()
     assert person.window.settings.recent[0] == str(path)
@@ -60,8 +61,17 @@ def test_a_session_that_is_none_is_told_in_the_window(person, qtbot, tmp_path):
     path = tmp_path / "bad.addsession"
     path.write_text("no session")
     person.window.open_requested.emit(str(path))
-    qtbot.waitUntil(lambda: person.window.message.isVisible(), timeout=5000)
+    qtbot.waitUntil(lambda: person.window.message.isVisible(), timeout=30000)
     assert "bad.addsession" in person.window.message.text.text()
+
+
+def test_a_view_without_room_keeps_a_camera_that_can_be_saved(person, make_torus):
+    person.session.add_shape(make_torus())
+    canvas = person.window.view.canvas
+    canvas.resize(0, 300)
+    canvas.fit()
+    (camera,) = person.assembly.session_files.cameras()
+    assert np.isfinite([camera.distance, *camera.focal]).all()
 
 
 DIE = """
@@ -98,7 +108,7 @@ def test_after_a_kill_the_app_offers_to_go_on_and_has_everything(killed, person,
     assert banner.isVisible()
     assert "Person 1" in banner.text.text()
     qtbot.mouseClick(banner.restore_button, Qt.MouseButton.LeftButton)
-    qtbot.waitUntil(lambda: person.session.state.active_key == "humans/0", timeout=20000)
+    qtbot.waitUntil(lambda: person.session.state.active_key == "humans/0", timeout=90000)
     assert not banner.isVisible()
     assert [pick.vertex for pick in person.session.state.picks] == [THIGH]
     assert person.session.state.diffusion.alpha == 7.5
