@@ -102,6 +102,7 @@ class KeepingController:
 
     def save(self, path: Path) -> None:
         """Write the session to `path`, whole or not at all. Raises OSError."""
+        path = path.absolute()
         text = session_text(self.snapshot(), path.parent)
         write_atomically(path, lambda temporary: _write(temporary, text))
         self.path = path
@@ -109,7 +110,13 @@ class KeepingController:
 
     def open(self, path: Path) -> None:
         """Put the session at `path` in the place of this one; undo brings this one back."""
+        path = path.absolute()
         self._open(path, lambda answer: self._done(answer, path))
+
+    def open_last(self) -> None:
+        """Go on with the session that was open when the app was closed last; where to save it is asked anew."""
+        if self.last is not None:
+            self._open(self.last, lambda answer: self._done(answer, None))
 
     def snapshot(self) -> KeptSession:
         """Everything that is worth keeping, as it is now."""

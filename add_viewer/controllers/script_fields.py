@@ -5,6 +5,7 @@ from __future__ import annotations
 from math import degrees, pi
 
 from add_core.evaluation.baselines import UNDIRECTED
+from add_core.io import SHIPPED
 
 from ..models.descriptor_names import PLAIN
 from ..models.fields import FieldChoice, FieldKind
@@ -106,7 +107,7 @@ def _ambiguity(script: Script, choice: FieldChoice) -> None:
     known = {
         script.shapes[shape.key]: f"{shape.reference.partition('/')[0]}().symmetry"
         for shape in script.state.shown
-        if shape.symmetry is not None and shape.reference.partition("/")[0] in ("humans", "poses", "dogs")
+        if shape.symmetry is not None and shape.reference.partition("/")[0] in SHIPPED
     }
     script.say(
         "known = {" + ", ".join(f"{name!r}: {code}" for name, code in known.items()) + "}  # true mirror maps",

@@ -36,6 +36,9 @@ class Keeping(Protocol):
     def open(self, path: Path) -> None:
         """Open a session."""
 
+    def open_last(self) -> None:
+        """Go on with it."""
+
     def remember_soon(self) -> None:
         """Something changed that no model tells of."""
 
@@ -53,7 +56,7 @@ class SessionFiles:
             ("save_session", self.save),
             ("save_session_as", self.ask_save),
             ("open_session", self.ask_open),
-            ("last_session", self.open_last),
+            ("last_session", keeping.open_last),
         ):
             window.menus.on(name, do)
         window.session.history_changed.connect(self._show_state)
@@ -102,11 +105,6 @@ class SessionFiles:
         if chosen:
             self._window.settings.folder = str(Path(chosen).parent)
             self._keeping.open(Path(chosen))
-
-    def open_last(self) -> None:
-        """The session as it was when the app was closed last."""
-        if self._keeping.last is not None:
-            self._keeping.open(self._keeping.last)
 
     # -- what no model holds ------------------------------------------------------------------------------------------
 

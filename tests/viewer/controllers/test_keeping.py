@@ -160,6 +160,10 @@ def test_discarding_and_closing_leave_nothing_to_ask_about(apps):
     third = apps.start(3)
     assert third.leftovers() == []
     assert len(read_session(third.last).shapes) == 2
+    third.open_last()
+    apps.run.answer_all()
+    assert len(third.session.state.shapes) == 2
+    assert third.path is None, "the next Ctrl+S must ask where"
 
 
 def test_an_empty_session_is_nothing_to_ask_about(apps):
