@@ -41,6 +41,7 @@ from .models.training import TrainingRequest
 from .tasks.delay import Delay
 from .tasks.disposal import dispose
 from .tasks.identity import ProcessIdentity
+from .tasks.memory import give_back
 from .tasks.processes import ProcessRunner
 from .tasks.worker import Worker
 from .views.animation import Recorder
@@ -57,6 +58,9 @@ from .views.start_page import Gallery
 
 KEEPING_PAUSE = 700
 """Milliseconds after a change until the session is kept: a drag writes its file once or twice, not for every step."""
+
+RESTING_PAUSE = 3000
+"""Milliseconds after shapes came or went until the memory that they left is given back."""
 
 CURVE_PAUSE = 180
 """Milliseconds without a change before curves are computed: a kernel that the person waits for comes first."""
@@ -134,6 +138,8 @@ class Assembly:
         files = self.session_files
         self.keeping.outside = Outside(files.cameras, files.layout, files.apply)
         self._keep_settings()
+        self._resting = Delay(RESTING_PAUSE)
+        self.session.shapes_changed.connect(lambda: self._resting(give_back))
         self.recovery = Recovery(self.keeping, files.banner)
         if self._screenshot is None:
             self.recovery.offer()
@@ -222,6 +228,7 @@ class Assembly:
         self.recorder.cancel()
         self.keeping.end()
         self._curve_delay.cancel()
+        self._resting.cancel()
         self.worker.stop()
         self.window.close()
         self.job_control.stop()

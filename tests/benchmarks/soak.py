@@ -16,7 +16,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).parents[1] / "viewer"))
 
 MOST_GROWTH = 100.0
-"""Megabytes between a fifth of the actions, when every library is loaded, and the end."""
+"""Megabytes between a fifth of the actions, when every library is loaded and every view there, and the end."""
 PEOPLE = ["humans/0", "humans/1", "humans/12", "dogs/3", "dogs/4"]
 
 
@@ -46,6 +46,7 @@ def main() -> int:
     soaker = Soaker(assembly, options.seed, references, folder, thorough=not options.quick)
     begun = time.perf_counter()
     soaker.act(options.actions // 5)
+    soaker.use_every_view()
     soaker.settle()
     early = soaker.memory()
     for part in range(4):

@@ -20,6 +20,7 @@ from add_core.geometry import shapes
 from add_core.io import save_shape
 from add_viewer.models.field_catalogue import catalogue
 from add_viewer.models.session_file import KeptSession
+from add_viewer.tasks.memory import give_back
 
 NONE, SHIFT, ALT, CONTROL = (
     Qt.KeyboardModifier.NoModifier,
@@ -88,6 +89,15 @@ class Soaker:
             action()
             self.wait(self._random.choice((0.0, 0.01, 0.03, 0.15)))
 
+    def use_every_view(self) -> None:
+        """Have as many views as ever: they are kept, and each has a graphics context of its own."""
+        for reference in self._references[:4]:
+            self.window.open_requested.emit(reference)
+        self.settle()
+        self.session.arrange(layout="grid")
+        self.session.choose_comparison(self.session.state.field)
+        self.wait(0.5)
+
     def wait(self, seconds: float) -> None:
         """Let the window work."""
         end = time.perf_counter() + seconds
@@ -118,8 +128,9 @@ class Soaker:
         return replace(self.assembly.keeping.snapshot(), saved="", layout="")
 
     def memory(self) -> float:
-        """Megabytes that this process holds now."""
+        """Megabytes that this process holds now, without what is free and only not given back yet."""
         gc.collect()
+        give_back()
         pages = int(Path("/proc/self/statm").read_text(encoding="ascii").split()[1])
         return pages * os.sysconf("SC_PAGE_SIZE") / 1e6
 
