@@ -1,4 +1,4 @@
-"""Giving memory back: what was freed stays with the process otherwise, after shapes of a hundred megabytes were closed."""
+"""Giving memory back: what was freed stays with the process otherwise, also after large shapes were closed."""
 
 from __future__ import annotations
 
