@@ -29,18 +29,21 @@ def multinomial_loss(logits: Tensor, truth: Tensor) -> Tensor:
     return torch.nn.functional.cross_entropy(logits, truth)
 
 
-def soft_nearest_loss(distances: Tensor, excluded: Tensor) -> Tensor:
+def soft_nearest_loss(distances: Tensor, excluded: Tensor, others: Tensor | None = None) -> Tensor:
     """Is the true point the nearest? Mean of −log softmax of the negative squared distances, at the diagonal, both
     ways.
 
     distances : (B, B), squared, between descriptors of point i on one shape and point j on another; i and i correspond.
     excluded : (B, B), True where j is neither the true point nor a wrong one, such as the same place drawn twice.
+    others : (B, D), squared distances of the points i to further points of the other shape, all wrong; infinite where
+        they are not.
 
     A smooth form of CMC@1: each of B² − B wrong pairs counts as much as it is near. Descriptors choose their own scale.
     """
     scores = (-distances).masked_fill(excluded, -torch.inf)
     truth = torch.arange(len(scores), device=scores.device)
-    return 0.5 * (multinomial_loss(scores, truth) + multinomial_loss(scores.T, truth))
+    forth = scores if others is None else torch.cat([scores, -others], dim=1)
+    return 0.5 * (multinomial_loss(forth, truth) + multinomial_loss(scores.T, truth))
 
 
 def squared_distances(one: Tensor, two: Tensor) -> Tensor:

@@ -8,6 +8,7 @@ import numpy as np
 import torch
 from torch import Tensor
 
+from .._check import IntArray
 from .architectures import Network
 from .losses import multinomial_loss, siamese_loss, soft_nearest_loss, squared_distances
 from .pairs import Batch
@@ -15,15 +16,22 @@ from .settings import TrainingSettings
 
 
 class Objective:
-    """The loss of a batch under the settings; noise follows from the step alone, on any device."""
+    """The loss of a batch under the settings; noise follows from the step alone, on any device.
 
-    def __init__(self, settings: TrainingSettings) -> None:
+    mirror_channels : (C,), see `InputRecipe`. By it every point is also seen as in a mirror, where it is its own mirror
+    image: a wrong point that differs in nothing but the side, on any meshing. None to do without.
+    """
+
+    def __init__(self, settings: TrainingSettings, mirror_channels: IntArray | None = None) -> None:
         self._settings = settings
+        self._mirror = None if mirror_channels is None else torch.from_numpy(np.array(mirror_channels))
 
     def loss(self, network: Network, batch: Batch, step: int) -> Tensor:
         """A scalar with its gradient."""
-        settings = self._settings
+        settings, count = self._settings, len(batch.places)
         inputs = torch.from_numpy(np.concatenate([batch.one, batch.two]))  # (2B, C, M)
+        if self._mirror is not None and settings.loss != "multinomial":
+            inputs = torch.cat([inputs, inputs[count:, self._mirror]])  # (3B, C, M)
         if settings.noise > 0:
             inputs = inputs + settings.noise * self._noise(inputs.shape, step)
         with self._arithmetic():
@@ -31,12 +39,23 @@ class Objective:
         outputs, places = outputs.float(), torch.from_numpy(np.array(batch.places)).to(settings.device)
         if settings.loss == "multinomial":
             return multinomial_loss(outputs, torch.cat([places, places]))
-        distances = squared_distances(*outputs.split(len(places)))
+        return self._of_pairs(outputs, places, torch.from_numpy(np.array(batch.mirror)).to(settings.device))
+
+    def _of_pairs(self, outputs: Tensor, places: Tensor, mirror: Tensor) -> Tensor:
+        settings, count = self._settings, len(places)
+        distances = squared_distances(outputs[:count], outputs[count : 2 * count])
         same = places[:, None] == places[None, :]
-        if settings.loss == "siamese":
-            negatives = distances[negative_pairs(batch, distances.detach(), hard=settings.hard_negatives)]
-            return siamese_loss(distances.diagonal(), negatives, margin=settings.margin, balance=settings.balance)
-        return soft_nearest_loss(distances, same & ~torch.eye(len(places), dtype=torch.bool, device=same.device))
+        # A place on the plane of symmetry is its own mirror image.
+        true = (mirror[None, :] < 0) | (mirror[None, :] == places[:, None])
+        others = squared_distances(outputs[:count], outputs[2 * count :])  # (B, B), or (B, 0) without mirrors
+        others = others.masked_fill(true[:, : others.shape[1]], torch.inf)
+        if settings.loss == "soft-nearest":
+            return soft_nearest_loss(distances, same & ~torch.eye(count, dtype=torch.bool, device=same.device), others)
+        negatives = [distances[negative_pairs(places, distances.detach(), hard=settings.hard_negatives)]]
+        negatives.append(others.diagonal()[torch.isfinite(others.diagonal())] if others.shape[1] else distances[:0, 0])
+        return siamese_loss(
+            distances.diagonal(), torch.cat(negatives), margin=settings.margin, balance=settings.balance
+        )
 
     def _noise(self, shape: torch.Size, step: int) -> Tensor:
         seed = int(np.random.SeedSequence([self._settings.seed, step]).generate_state(1)[0])
@@ -51,14 +70,14 @@ class Objective:
         return narrow
 
 
-def negative_pairs(batch: Batch, distances: Tensor, *, hard: bool) -> tuple[Tensor, Tensor]:
-    """Rows and columns of the negatives of eq. (21) in `distances` (B, B): mirrored, random, and hardest ones."""
-    count = len(batch.places)
-    rows = np.arange(count)
-    columns = [batch.mirror, np.roll(rows, 1 + count // 3)]
+def negative_pairs(places: Tensor, distances: Tensor, *, hard: bool) -> tuple[Tensor, Tensor]:
+    """Rows and columns of the negatives of eq. (21) in `distances` (B, B): random ones, and the hardest if wanted."""
+    count = len(places)
+    rows = torch.arange(count, device=places.device)
+    columns = [torch.roll(rows, 1 + count // 3)]
     if hard:
-        same = torch.from_numpy(batch.places[:, None] == batch.places[None, :]).to(distances.device)
-        columns.append(distances.masked_fill(same, torch.inf).argmin(dim=1).cpu().numpy())
-    row, column = np.tile(rows, len(columns)), np.concatenate(columns)
-    usable = (column >= 0) & (batch.places[row] != batch.places[column])
-    return torch.from_numpy(row[usable]), torch.from_numpy(column[usable])
+        same = places[:, None] == places[None, :]
+        columns.append(distances.masked_fill(same, torch.inf).argmin(dim=1))
+    row, column = rows.repeat(len(columns)), torch.cat(columns)
+    usable = places[row] != places[column]
+    return row[usable], column[usable]

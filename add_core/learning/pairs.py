@@ -6,12 +6,15 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.spatial import cKDTree
 
-from .._check import BoolArray, IntArray, count_in, index_array, read_only
+from .._check import IntArray, count_in, index_array, read_only
 from ..errors import ParameterError
 from .inputs import Inputs, Moments
 from .training_set import UNKNOWN, PreparedShape
 
+CLUSTER, NEAREST = 5, 16
+"""Places that are drawn together, and among how many shared neighbours of the first the others are drawn."""
 MOST_TRIES = 1000
 """Draws of two shapes until a pair shares places: consistent sets need one or two."""
 
@@ -21,7 +24,7 @@ class Batch:
     """Points of two shapes that correspond row by row.
 
     one, two : (B, C, M), standardised inputs. places : (B,), equal where the same place was drawn twice.
-    mirror : (B,), the row that holds the mirror image of each row's place, −1 where the batch has none.
+    mirror : (B,), the place that is the mirror image of each, −1 where it is unknown.
     """
 
     one: Inputs
@@ -36,8 +39,7 @@ class PairSampler:
     shapes : at least two that share places. pairs : B. symmetry : (P,), the place that mirrors each place, or None.
     moments : standardise by these; None standardises every shape by its own.
 
-    A fifth of the places is drawn anywhere; a fifth are their mirror images; the others lie near to those of the first
-    fifth, because neighbours are what is confused most. Without a symmetry the mirror images are drawn anywhere too.
+    Places come in clusters of five, the first anywhere and four near it, because neighbours are what is confused most.
     Each shape counts the same, whatever its number of points. Raises ParameterError if no two shapes share a place.
     """
 
@@ -62,19 +64,12 @@ class PairSampler:
         """The batch of step 0, 1, 2, …: inputs of shape (B, C, M)."""
         draw = np.random.default_rng([self._seed, step])
         one, two, common = self._two_shapes(draw)
-        fifth = max(1, self._pairs // 5)
-        somewhere = draw.choice(common, fifth)
-        shared = np.zeros(self._places, dtype=bool)
-        shared[common] = True
-        images = self._symmetry[somewhere]
-        mirrored = np.where(shared[images] & (images >= 0), images, draw.choice(common, fifth))
-        near = self._near(one, np.resize(somewhere, self._pairs - 2 * fifth), shared, draw)
-        places = np.concatenate([somewhere, mirrored, near])
+        places = _clustered(one, common, self._pairs, draw)
         return Batch(
             one.inputs(one.vertex_at[places], self._moments),
             two.inputs(two.vertex_at[places], self._moments),
             read_only(places),
-            read_only(_rows_of(self._symmetry[places], places)),
+            read_only(self._symmetry[places]),
         )
 
     def _two_shapes(self, draw: np.random.Generator) -> tuple[PreparedShape, PreparedShape, IntArray]:
@@ -89,11 +84,15 @@ class PairSampler:
             "shapes must share places, but no two of them do: their correspondences name different points."
         )
 
-    def _near(self, shape: PreparedShape, places: IntArray, shared: BoolArray, draw: np.random.Generator) -> IntArray:
-        """A place beside each of `places`, on `shape`; the place itself where no neighbour is shared by both shapes."""
-        around = shape.neighbours[shape.vertex_at[places]]
-        chosen = shape.places[around[np.arange(len(around)), draw.integers(around.shape[1], size=len(around))]]
-        return np.where((chosen >= 0) & shared[chosen], chosen, places)
+
+def _clustered(shape: PreparedShape, common: IntArray, count: int, draw: np.random.Generator) -> IntArray:
+    """(count,): places among `common`, each first one anywhere and the others of its cluster near it on the shape."""
+    positions = shape.positions[shape.vertex_at[common]]
+    firsts = draw.integers(len(common), size=-(-count // CLUSTER))
+    nearest = cKDTree(positions).query(positions[firsts], k=min(NEAREST, len(common)))[1].reshape(len(firsts), -1)
+    columns = draw.integers(nearest.shape[1], size=(len(firsts), CLUSTER - 1))
+    rows = np.concatenate([firsts[:, None], np.take_along_axis(nearest, columns, axis=1)], axis=1)
+    return np.asarray(common[rows.ravel()[:count]])
 
 
 def _padded(symmetry: IntArray | None, places: int) -> IntArray:
@@ -103,11 +102,3 @@ def _padded(symmetry: IntArray | None, places: int) -> IntArray:
         known = index_array("symmetry", symmetry, max(len(symmetry), places), least=UNKNOWN)[:places]
         table[: len(known)] = np.where(known < places, known, UNKNOWN)
     return table
-
-
-def _rows_of(wanted: IntArray, places: IntArray) -> IntArray:
-    """The first row of `places` that holds each of `wanted`, −1 for none."""
-    order = np.argsort(places, kind="stable")
-    position = np.minimum(np.searchsorted(places[order], wanted), len(places) - 1)
-    rows = order[position]
-    return np.where((places[rows] == wanted) & (wanted >= 0), rows, UNKNOWN)

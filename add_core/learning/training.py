@@ -71,6 +71,7 @@ def fit(
     run = _Run(
         network,
         chosen,
+        objective=Objective(chosen, _mirror_channels(recipe, symmetry)),
         sampler=_sampler(shapes, recipe, chosen, symmetry, moments),
         validator=Validator(validation, symmetry=symmetry, moments=moments) if validation else None,
         model=lambda trained, facts: Model(
@@ -92,6 +93,7 @@ class _Run:
         network: Network,
         settings: TrainingSettings,
         *,
+        objective: Objective,
         sampler: PairSampler,
         validator: Validator | None,
         model: Callable[[Network, dict[str, Any]], Model],
@@ -99,12 +101,12 @@ class _Run:
         folder: Path,
         report: Report,
     ) -> None:
-        self.settings, self.sampler, self.validator, self.model = settings, sampler, validator, model
+        self.settings, self.objective, self.model = settings, objective, model
+        self.sampler, self.validator = sampler, validator
         self.folder, self.report = folder, report
         folder.mkdir(parents=True, exist_ok=True)
         self.network = network.to(settings.device)
         self.average = AveragedWeights(self.network, settings.averaging)
-        self.objective = Objective(settings)
         self.optimizer = _optimizer(self.network, settings)
         self.state = Checkpoint(about, 0, {}, {})
         self._resume()
@@ -201,6 +203,12 @@ class _Run:
         weights = {"network": self.network.state_dict(), "average": self.average.network.state_dict()}
         saved = replace(self.state, optimizer=self.optimizer.state_dict(), **weights)
         saved.save(self.folder / CHECKPOINT)
+
+
+def _mirror_channels(recipe: InputRecipe, symmetry: IntArray | None) -> IntArray | None:
+    """None where a mirror image would look like the shape itself: without any direction."""
+    blind = recipe.isotropic or np.array_equal(recipe.mirror_channels, np.arange(recipe.channels))
+    return None if symmetry is None or blind else recipe.mirror_channels
 
 
 def _sampler(

@@ -13,7 +13,6 @@ from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial import cKDTree
 
 from .._check import FloatArray, IntArray, index_array, one_of, read_only
 from ..errors import GeometryError, ParameterError
@@ -23,8 +22,6 @@ from .inputs import InputRecipe, Inputs, Moments
 
 UNKNOWN = -1
 """Place of a vertex that has no counterpart on other shapes."""
-NEIGHBOURS = 24
-"""Nearest points among which confusable negatives are drawn."""
 
 Precision = Literal["float16", "float32"]
 Report = Callable[[str, int, int], object]
@@ -91,13 +88,6 @@ class PreparedShape:
         table = np.full(int(self.places.max()) + 1, UNKNOWN)
         table[self.places[known]] = known
         return read_only(table)
-
-    @cached_property
-    def neighbours(self) -> NDArray[np.int32]:
-        """(n, 24): the points nearest to each, itself first."""
-        count = min(NEIGHBOURS, len(self.positions))
-        nearest = cKDTree(self.positions).query(self.positions, k=count)[1]
-        return read_only(np.asarray(nearest, dtype=np.int32).reshape(len(self.positions), count))
 
 
 def places_of(collection: Collection, indices: Iterable[int], *, reference: int = 0) -> list[TrainingShape]:

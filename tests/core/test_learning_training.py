@@ -19,7 +19,7 @@ from add_core.learning import InputRecipe, LearningTask, TrainingSettings, Train
 from add_core.learning.architectures import Architecture, build, take_over
 from add_core.learning.averaging import AveragedWeights
 from add_core.learning.inputs import Moments
-from add_core.learning.objective import negative_pairs
+from add_core.learning.objective import Objective, negative_pairs
 from add_core.learning.pairs import Batch, PairSampler
 from add_core.learning.settings import learning_rate
 from add_core.learning.training import CHECKPOINT, MODEL, fit
@@ -76,13 +76,21 @@ def test_pairs_are_the_same_place_on_both_shapes_whatever_its_number():
     assert batch.places.max() < 40
 
 
-def test_mirror_images_are_drawn_and_named():
+def test_mirror_images_are_named_and_neighbours_drawn_together():
     symmetry = np.arange(40) ^ 1
     sampler = PairSampler([numbered(np.arange(40)), numbered(np.arange(40))], pairs=32, seed=0, symmetry=symmetry)
     batch = sampler.batch(0)
-    known = batch.mirror >= 0
-    assert known[:12].all()
-    assert_array_equal(batch.places[batch.mirror[known]], symmetry[batch.places[known]])
+    assert_array_equal(batch.mirror, symmetry[batch.places])
+    clusters = batch.places[:30].reshape(6, 5)  # places lie along a line, in their order
+    assert np.abs(clusters - clusters[:, :1]).max() <= 16
+    assert len(np.unique(clusters[:, 0])) > 2
+
+
+def test_neighbours_are_shared_places_even_where_few_are_shared():
+    one, two = numbered(np.arange(400)), numbered(np.where(np.arange(400) % 20, -1, np.arange(400)))
+    batch = PairSampler([one, two], pairs=40, seed=0).batch(0)
+    assert (batch.places % 20 == 0).all()
+    assert len(np.unique(batch.places)) > 12
 
 
 def test_a_reflected_shape_swaps_places_and_channels():
@@ -107,23 +115,31 @@ def test_a_step_is_the_same_batch_whatever_came_before():
     assert not np.array_equal(first.batch(9).places, first.batch(10).places)
 
 
-def test_negatives_are_mirrored_random_and_the_hardest_and_never_the_place_itself():
-    symmetry = np.arange(40) ^ 1
-    batch = PairSampler([numbered(np.arange(40))] * 2, pairs=16, seed=0, symmetry=symmetry).batch(0)
+def test_negatives_are_random_and_the_hardest_and_never_the_place_itself():
+    places = torch.from_numpy(np.random.default_rng(0).integers(0, 12, 16))
     distances = torch.rand(16, 16, generator=torch.Generator().manual_seed(0))
-    row, column = (index.numpy() for index in negative_pairs(batch, distances, hard=True))
-    assert (batch.places[row] != batch.places[column]).all()
-    assert {(r, batch.mirror[r]) for r in range(6)} <= set(zip(row.tolist(), column.tolist(), strict=True))
-    hardest = distances.masked_fill(torch.from_numpy(batch.places[:, None] == batch.places), 9).argmin(1).numpy()
-    assert_array_equal(column[-16:], hardest)
+    row, column = negative_pairs(places, distances, hard=True)
+    assert (places[row] != places[column]).all()
+    assert_array_equal(column[-16:], distances.masked_fill(places[:, None] == places, 9).argmin(1))
+    assert len(negative_pairs(places, distances, hard=False)[0]) == len(row) - 16
 
 
-def test_a_place_drawn_twice_is_no_negative_of_itself():
-    values = np.zeros((4, 1, 1), np.float32)
-    batch = Batch(values, values, places=np.array([7, 8, 7, 7]), mirror=np.full(4, -1))
-    row, column = negative_pairs(batch, torch.zeros(4, 4), hard=False)
-    assert len(row) > 0
-    assert (batch.places[row.numpy()] != batch.places[column.numpy()]).all()
+def test_a_point_in_the_mirror_is_wrong_unless_it_is_its_own_image():
+    """Two channels that mirrors exchange, and a network that reads one of them: only places 0 and 1 have another."""
+    network = build(Architecture("first", "SC FC1", channels=2, splines=1, bias=False))
+    with torch.no_grad():
+        next(network.parameters()).copy_(torch.tensor([[1.0, 0.0]]))
+    values = np.array([[0.0, 0.5], [3.0, 2.0], [5.0, 5.0]], np.float32)[:, :, None]
+    batch = Batch(values, values, places=np.arange(3), mirror=np.array([1, 0, 2]))
+    settings = TrainingSettings(noise=0.0)
+    there, back = (Objective(settings, order).loss(network, batch, 0).item() for order in (np.array([1, 0]), None))
+    firsts, images = values[:, 0, 0], values[:, 1, 0]
+    squares = (firsts[:, None] - firsts) ** 2
+    wrong = (firsts[:, None] - images) ** 2
+    wrong[[0, 1, 2], [1, 0, 2]] = np.inf  # the image of 1 is 0, and 2 lies on the plane
+    forth = np.log(np.exp(-squares).sum(1) + np.exp(-wrong).sum(1)).mean()
+    plain = np.log(np.exp(-squares).sum(1)).mean()
+    assert_allclose([there, back], [0.5 * (forth + plain), plain], rtol=1e-5)
 
 
 def test_the_inputs_of_a_shape_are_computed_once(tmp_path):
