@@ -51,15 +51,15 @@ def main() -> int:
     early = soaker.memory()
     for part in range(4):
         soaker.act(options.actions // 5)
-        print(f"{(part + 2) * options.actions // 5} actions, {soaker.memory():.0f} MB", flush=True)
+        print(f"{(part + 2) * options.actions // 5} actions after {time.perf_counter() - begun:.0f} s", flush=True)
     faults = [*soaker.problems]
     if not soaker.settle():
         faults.append("something never ended")
+    kept, path = soaker.kept(), folder / "end.addsession"
+    assembly.keeping.save(path)
     growth = soaker.memory() - early
     if growth > MOST_GROWTH:
         faults.append(f"memory grew by {growth:.0f} MB")
-    kept, path = soaker.kept(), folder / "end.addsession"
-    assembly.keeping.save(path)
     assembly.stop()
     again = started()
     later = Soaker(again, 0, references, folder, thorough=False)
