@@ -23,7 +23,7 @@ from ..evaluation.baselines import (
 )
 from ..geometry import PointCloud, TriangleMesh, normalize
 from ..geometry.pair_distances import PairDistances
-from ..io import save_arrays, save_shape, shipped_place
+from ..io import known_matches, save_arrays, save_shape, shipped_place
 from ..spectra import SpectralFamily, compute_spectra
 from .reporting import Advance, progress, result
 from .shapes import open_shape
@@ -64,7 +64,8 @@ REFINEMENTS = ("none", "fm", "icp", "zoomout", "zoomout-plain")
 @click.option(
     "--truth",
     metavar="FILE",
-    help="Text file like the output, -1 where unknown; or 'same': equal numbers correspond. Reports the errors.",
+    help="Text file like the output, -1 where unknown; 'same': equal numbers correspond; 'known': of shipped shapes. "
+    "Reports the errors.",
 )
 @click.option(
     "--colors", type=click.Path(path_type=Path, dir_okay=False), help="Also write SECOND with FIRST's colours."
@@ -90,7 +91,7 @@ def command(
     Vertex numbers start at 0.
     """
     shapes = open_shape(first), open_shape(second)
-    true = None if truth is None else _truth(truth, shapes[1].vertex_count)
+    true = None if truth is None else _truth(truth, first, second, shapes[1].vertex_count)
     guided = refine == "zoomout" and descriptor in UNDIRECTED
     alphas = (0.0, alpha) if descriptor in DIRECTED or guided else (0.0,)
     with progress("Spectra", as_json=as_json) as advance:
@@ -122,10 +123,16 @@ def command(
     )
 
 
-def _truth(name: str, count: int) -> IntArray:
+def _truth(name: str, first: str, second: str, count: int) -> IntArray:
     """(n2,): the true vertex of the first for each of the second."""
     if name == "same":
         return np.arange(count)
+    if name == "known":
+        one, two = shipped_place(first), shipped_place(second)
+        known = None if one is None or two is None else known_matches(one, two)
+        if known is None:
+            raise ParameterError(f"the true correspondence of {first} and {second} is not known. Give a file with it.")
+        return known
     try:
         return np.loadtxt(name, dtype=np.int64, ndmin=1)
     except (OSError, ValueError) as error:

@@ -7,7 +7,7 @@ from .folders import open_collection
 from .formats import extensions
 from .models import shipped_models
 from .shipped import dogs, humans, poses
-from .shipped_places import SHIPPED, ShippedPlace, shipped_place
+from .shipped_places import SHIPPED, ShippedPlace, known_matches, shipped_place
 from .shipped_variants import clouds, remeshed
 
 __all__ = [
@@ -20,6 +20,7 @@ __all__ = [
     "dogs",
     "extensions",
     "humans",
+    "known_matches",
     "load_fields",
     "load_shape",
     "load_shape_and_fields",

@@ -16,6 +16,7 @@ from ..models.picks import Pick
 from ..models.results import Results
 from ..models.session import Session
 from ..models.shapes import OpenShape, Shape
+from .carrying import carried_vertex, true_match
 from .fields_of_descriptors import asked_point
 from .running import Run, explain
 
@@ -59,10 +60,12 @@ class BestMatchesController:
     def _judged(
         self, matches: tuple[BestMatch, ...], shape: OpenShape | None, owner: OpenShape, pick: Pick
     ) -> tuple[BestMatch, ...]:
-        if shape is None or not owner.shares_vertices_with(shape):
+        truth = None if shape is None else true_match(owner, shape)
+        if shape is None or truth is None:
             return matches
-        away = self._distances(shape.shape).rows([pick.vertex])[0]
-        mirror = None if shape.symmetry is None else int(shape.symmetry[pick.vertex])
+        true = carried_vertex(pick.vertex, owner.shape.vertices, truth)
+        away = self._distances(shape.shape).rows([true])[0]
+        mirror = None if shape.symmetry is None else int(shape.symmetry[true])
         back = None if mirror is None else self._distances(shape.shape).rows([mirror])[0]
         return tuple(
             replace(match, error=float(away[match.vertex]), is_mirror=_is_mirror(match.vertex, away, back))

@@ -6,10 +6,9 @@ from dataclasses import replace
 from functools import lru_cache
 
 import numpy as np
-from scipy.spatial import KDTree
 
 from add_core.geometry import TriangleMesh
-from add_core.io import SHIPPED
+from add_core.io import known_matches, shipped_place
 
 from ..models.picks import Pick
 from ..models.results import FloatArray, IntArray, Results
@@ -60,12 +59,9 @@ def true_match(source: OpenShape, target: OpenShape) -> IntArray | None:
     return np.arange(one.vertex_count, dtype=np.int64) if same else None
 
 
-def _match_of_places(source: OpenShape, target: OpenShape) -> IntArray:
-    places = np.arange(target.vertex_count, dtype=np.int64) if target.places is None else target.places
-    if source.places is None:
-        return places
-    template = SHIPPED[source.template]()[0].vertices  # in a neutral pose, where near means near on the skin
-    return np.asarray(KDTree(template[source.places]).query(template[places])[1], dtype=np.int64)
+def _match_of_places(source: OpenShape, target: OpenShape) -> IntArray | None:
+    one, two = shipped_place(source.reference), shipped_place(target.reference)
+    return None if one is None or two is None else known_matches(one, two)
 
 
 def carried_vertex(vertex: int, vertices: FloatArray, match: IntArray) -> int:

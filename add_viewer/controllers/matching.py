@@ -21,6 +21,7 @@ from ..models.results import Results
 from ..models.session import Session, SessionState
 from ..models.shapes import OpenShape, Shape
 from .answers import Answers, Question
+from .carrying import true_match
 from .descriptors import COUNT
 
 FloatArray = NDArray[np.float64]
@@ -59,7 +60,10 @@ class FoundMap:
 
 @dataclass(frozen=True)
 class MatchQuestion:
-    """A pair of shapes under one method. truth : whether equal vertex numbers correspond, so that errors are known."""
+    """A pair of shapes under one method.
+
+    truth : what the command is told of it: "same", equal vertex numbers correspond; "known" of shipped shapes; or "".
+    """
 
     source: str
     target: str
@@ -67,7 +71,7 @@ class MatchQuestion:
     target_shape: Shape
     method: Method
     descriptor: str
-    truth: bool
+    truth: str
     names: tuple[str, str] = field(compare=False)
 
     kind = "match"
@@ -84,7 +88,7 @@ class MatchQuestion:
         fewest = min(self.source_shape.vertex_count, self.target_shape.vertex_count) - 1
         size = str(max(4, min(120, fewest)))
         options = ("--descriptor", descriptor, "--refine", _REFINEMENT[self.method], "--size", size)
-        truth = ("--truth", "same") if self.truth else ()
+        truth = ("--truth", self.truth) if self.truth else ()
         return ("match", self.source, self.target, *options, "--count", str(COUNT), *truth, "-o", str(output))
 
     def read(self, output: Path, said: Mapping[str, Any]) -> FoundMap:
@@ -150,8 +154,7 @@ class MatchingController:
             source = state.active
             assert source is not None
             if state.matching.method == "true":
-                shared = source.shares_vertices_with(target)
-                self._set(source, target, np.arange(target.vertex_count) if shared else None)
+                self._set(source, target, true_match(source, target))
             else:
                 found = self._answers.want(question_of(source, target, state.matching))
                 self._set(source, target, None if found is None else found.match(refined=state.matching.refined))
@@ -205,9 +208,17 @@ def question_of(source: OpenShape, target: OpenShape, matching: Matching) -> Mat
         target.shape,
         matching.method,
         descriptor,
-        source.shares_vertices_with(target),
+        _truth(source, target),
         (source.name, target.name),
     )
+
+
+def _truth(source: OpenShape, target: OpenShape) -> str:
+    match = true_match(source, target)
+    if match is None:
+        return ""
+    same = len(match) == source.vertex_count and bool((match == np.arange(len(match))).all())
+    return "same" if same else "known"
 
 
 def _targets(state: SessionState) -> tuple[OpenShape, ...]:

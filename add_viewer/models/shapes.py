@@ -56,13 +56,6 @@ class OpenShape:
             return None
         return int(self.symmetry[vertex])
 
-    def shares_vertices_with(self, other: OpenShape) -> bool:
-        """Whether equal vertex numbers are the same place: meshes with the same triangles."""
-        one, two = self.shape, other.shape
-        if one is two:
-            return True
-        return isinstance(one, TriangleMesh) and isinstance(two, TriangleMesh) and np.array_equal(one.faces, two.faces)
-
     @property
     def scale_sentence(self) -> str:
         """What 1 means where lengths are shown."""

@@ -6,7 +6,7 @@ from numpy.testing import assert_allclose, assert_array_equal
 
 from add_core.errors import ParameterError
 from add_core.geometry import inspect
-from add_core.io import clouds, dogs, humans, poses, remeshed
+from add_core.io import clouds, dogs, humans, known_matches, poses, remeshed, shipped_place
 
 COLLECTIONS = {"humans": (humans, 100, 6890), "poses": (poses, 71, 12166), "dogs": (dogs, 40, 6890)}
 
@@ -123,3 +123,13 @@ def test_variants_of_the_test_people_lie_on_them(make):
     match = collection.correspondence(0, 13)
     assert match.shape == (collection[0].vertex_count,)
     assert (match >= 0).mean() > 0.3
+
+
+def test_true_matches_between_people_of_one_meshing_and_of_others():
+    person, other, cloud, dog = (shipped_place(name) for name in ("humans/80", "humans/3", "clouds/0", "dogs/0"))
+    assert_array_equal(known_matches(person, other), np.arange(6890))
+    assert known_matches(person, dog) is None
+    points, body = cloud.collection[0].vertices, person.collection[80].vertices
+    assert_allclose(body[known_matches(person, cloud)], points, atol=1e-9)  # a cloud's points are vertices of the body
+    back = known_matches(cloud, person)
+    assert np.linalg.norm(points[back] - body, axis=1).max() < 0.1
