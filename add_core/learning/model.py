@@ -166,8 +166,8 @@ class Model:
         tensors["input.mean"] = torch.from_numpy(np.array(self.moments.mean))
         tensors["input.deviation"] = torch.from_numpy(np.array(self.moments.deviation))
         if self.reference is not None:
-            tensors["reference.vertices"] = torch.from_numpy(self.reference.vertices.astype(np.float32))
-            tensors["reference.faces"] = torch.from_numpy(self.reference.faces.astype(np.int32))
+            tensors["reference.vertices"] = torch.from_numpy(self.reference.vertices.astype(np.float32, order="C"))
+            tensors["reference.faces"] = torch.from_numpy(self.reference.faces.astype(np.int32, order="C"))
         target = Path(path)
         target.parent.mkdir(parents=True, exist_ok=True)
         unfinished = target.with_name(f".{target.name}.part")

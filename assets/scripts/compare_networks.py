@@ -23,7 +23,7 @@ from add_core.contest.pairs import chosen_pairs
 from add_core.evaluation import Scores, averaged, save_report, table
 from add_core.evaluation.baselines import describe_with
 from add_core.evaluation.samples import Sample, sample
-from add_core.evaluation.scores import descriptor_scores
+from add_core.evaluation.scores import PROTOCOLS, descriptor_scores
 from add_core.geometry import TriangleMesh, normalize
 from add_core.geometry.pair_distances import PairDistances
 from add_core.io import humans
@@ -125,7 +125,9 @@ def signature(name: str) -> Describe:
     return describe
 
 
-def evaluate(methods: dict[str, Describe], folder: Path, variant: str) -> list[Scores]:
+def evaluate(
+    methods: dict[str, Describe], folder: Path, variant: str, protocols: tuple[str, ...] = PROTOCOLS
+) -> list[Scores]:
     """Scores of every method on the same pairs."""
     found: dict[str, list[Scores]] = {name: [] for name in methods}
     numbers = chosen_pairs(humans(), PAIRS, 0)
@@ -136,7 +138,9 @@ def evaluate(methods: dict[str, Describe], folder: Path, variant: str) -> list[S
         distances = PairDistances(parts[j].shape)
         for name in methods:
             pair = (described[name, i], described[name, j])
-            scores = descriptor_scores(name, parts[i], parts[j], pair, distances=distances, queries=QUERIES)
+            scores = descriptor_scores(
+                name, parts[i], parts[j], pair, protocols=protocols, distances=distances, queries=QUERIES
+            )
             found[name].append(scores)
     return [averaged(scores) for scores in found.values()]
 
@@ -174,7 +178,7 @@ def main() -> None:
     parser.add_argument("--inputs", type=Path)
     parser.add_argument("--report", type=Path, default=Path(__file__).parents[1] / "reports" / "learned")
     parser.add_argument("--models", nargs="*", default=["humans-madd3"], help="Score these too.")
-    parser.add_argument("--only-models", action="store_true", help="Train nothing.")
+    parser.add_argument("--only-models", action="store_true", help="Train nothing; scores.json of the first.")
     given = parser.parse_args()
     torch.set_num_threads(1)
     given.output.mkdir(parents=True, exist_ok=True)
@@ -183,11 +187,13 @@ def main() -> None:
         methods |= {name.upper(): signature(name) for name in SIGNATURES}
         methods |= learned_methods(given.output, given.inputs or given.output / "inputs")
     methods |= {str(name): shipped(name) for name in given.models}
+    found: dict[str, dict[str, float]] = {}
     for variant in VARIANTS:
-        scores = evaluate(methods, given.output, variant)
+        protocols = ("cmc", "roc") if given.only_models else PROTOCOLS
+        scores = evaluate(methods, given.output, variant, protocols)
         print(variant, table(scores), sep="\n", flush=True)
         if given.only_models:
-            print(json.dumps({score.method: score.numbers for score in scores}), flush=True)
+            found |= {variant: scores[0].numbers}
             continue
         note = f"{SETTINGS.steps} mini-batches of {SETTINGS.pairs} pairs from {len(BODIES)} bodies for each network."
         save_report(
@@ -197,6 +203,8 @@ def main() -> None:
             command="python assets/scripts/compare_networks.py -o FOLDER",
             notes=[f"{PAIRS} pairs, {QUERIES} queries each.", note],
         )
+    if given.only_models:
+        (given.output / "scores.json").write_text(json.dumps(found, indent=1), encoding="utf-8")
 
 
 if __name__ == "__main__":

@@ -1,6 +1,7 @@
 """Train the models in assets/models from the shipped shapes.
 
-    python train_models.py humans -o RUN
+    python train_models.py humans -o FIRST
+    python train_models.py more-humans -o RUN --start FIRST --inputs FIRST/inputs
     python train_models.py dogs -o RUN
     python train_models.py correspondence -o RUN --start HUMANS_RUN
 
@@ -13,6 +14,7 @@ from __future__ import annotations
 
 import argparse
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import training_bodies
@@ -26,19 +28,14 @@ from add_core.learning.training_set import PreparedShape, prepare
 RECIPE = InputRecipe(angles=8, eigenpairs=300, splines=96)
 CORRESPONDENCE = "ASF256 ReLU ASF256 ReLU SC FC512 ReLU FC512 ReLU FCreference Softmax"
 """mADD4 with a quarter to a half of its widths; its first layers begin as those of humans-madd3."""
-PEOPLE = 112
-"""Training bodies: numbers 0 to 111 of `training_bodies.person`."""
-DOGS = 36
+PEOPLE, MORE_PEOPLE, DOGS = 112, 132, 36
+"""Training bodies: the first numbers of `training_bodies.person` and `dog`."""
+COMMON = TrainingSettings(pairs=160, noise=0.15, averaging=0.998, arithmetic="bfloat16", validate_every=500)
 SETTINGS = {
-    "humans": TrainingSettings(
-        steps=10000, pairs=160, noise=0.15, averaging=0.998, arithmetic="bfloat16", validate_every=500
-    ),
-    "dogs": TrainingSettings(
-        steps=3000, pairs=160, noise=0.15, averaging=0.998, arithmetic="bfloat16", validate_every=250
-    ),
-    "correspondence": TrainingSettings(
-        loss="multinomial", steps=3000, noise=0.15, averaging=0.998, arithmetic="bfloat16", validate_every=500
-    ),
+    "humans": replace(COMMON, steps=10000),
+    "more-humans": replace(COMMON, steps=12000, learning_rate=7e-4, noise=0.1, seed=1),
+    "dogs": replace(COMMON, steps=3000, validate_every=250),
+    "correspondence": replace(COMMON, steps=3000, loss="multinomial"),
 }
 
 
@@ -48,7 +45,7 @@ def task(data: str) -> LearningTask:
         middles = training_bodies.dog_middles()
         bodies = [training_bodies.dog(number) for number in range(DOGS)]
         return LearningTask(bodies, training_bodies.validation_dogs(), middles.symmetry, dogs()[0])
-    bodies = [training_bodies.person(number) for number in range(PEOPLE)]
+    bodies = [training_bodies.person(number) for number in range(MORE_PEOPLE if data == "more-humans" else PEOPLE)]
     middles = training_bodies.people_middles()
     return LearningTask(bodies, training_bodies.validation_people(), middles.symmetry, humans()[0])
 
@@ -63,7 +60,7 @@ def learn(data: str, run: Path, inputs: Path, start: Path | None, steps: int | N
     training, validation = prepared(list(chosen.training)), prepared(list(chosen.validation))
     settings = SETTINGS[data]
     if steps is not None:
-        settings = TrainingSettings(**{**vars(settings), "steps": steps})
+        settings = replace(settings, steps=steps)
     named = data == "correspondence"
     network = build_network(
         "mADD4" if named else "mADD3",
