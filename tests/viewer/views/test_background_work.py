@@ -17,6 +17,7 @@ from add_core.geometry import TriangleMesh
 from add_core.geometry.shapes import ellipsoid
 from add_core.io import save_shape
 from add_viewer.assembly import Assembly
+from add_viewer.controllers.job_folders import kept_jobs
 from add_viewer.models.training import TrainingRequest
 from add_viewer.tasks.identity import beginning
 
@@ -111,7 +112,7 @@ def see_its_distances(person, trainer, bodies):
     assert trainer.job.state == "running"
 
 
-def test_a_training_is_started_watched_paused_killed_and_gone_on_with(person, trainer, qtbot, bodies):
+def test_a_training_is_started_watched_used_paused_gone_on_with_and_cancelled(person, trainer, qtbot, bodies):
     qtbot.keyClick(person.window, Qt.Key.Key_T, CONTROL)
     form = trainer.panel.form
     fill_in(form, person, qtbot, bodies)
@@ -132,11 +133,6 @@ def test_a_training_is_started_watched_paused_killed_and_gone_on_with(person, tr
     steps = trainer.curves.steps
     assert steps == list(range(1, len(steps) + 1))
 
-    os.kill(trainer.pid(), signal.SIGKILL)
-    trainer.wait_for_state("interrupted")
-    killed_at = trainer.curves.last_step
-    trainer.press(trainer.panel.buttons["resume"])
-    trainer.wait_for_steps_after(killed_at)
     trainer.press(trainer.panel.buttons["cancel"])
     trainer.wait_for_state("cancelled")
     trainer.wait(lambda: not trainer.assembly.background.status.isVisible())
@@ -148,21 +144,23 @@ def another_window(tmp_path):
     return made
 
 
-def test_closing_the_window_ends_a_training_and_the_next_window_offers_to_go_on(trainer, qtbot, bodies, tmp_path):
-    trainer.assembly.background.training_panel.submitted.emit(tiny(bodies))
+def test_a_killed_training_and_one_whose_window_is_closed_are_offered_to_go_on(trainer, qtbot, bodies, tmp_path):
+    trainer.panel.submitted.emit(tiny(bodies))
     trainer.wait_for_steps_after(100)
-    pid = trainer.pid()
+    os.kill(trainer.pid(), signal.SIGKILL)
+    trainer.wait_for_state("interrupted")
+    killed_at = trainer.curves.last_step
     trainer.assembly.stop()
-    with pytest.raises(ProcessLookupError):
-        os.kill(pid, 0)
     after = Trainer(another_window(tmp_path), qtbot)
     assert after.job.state == "interrupted"
-    closed_at = after.curves.last_step
     jobs_panel = after.assembly.background.panel
     assert jobs_panel.isVisible()
     after.press(jobs_panel.resume_all)
-    after.wait_for_steps_after(max(closed_at, 100))
+    after.wait_for_steps_after(killed_at)
+    pid, folder = after.pid(), after.job.request.folder
     after.assembly.stop()
+    assert beginning(pid) is None
+    assert [kept.job.state for kept in kept_jobs(folder.parent)] == ["interrupted"]
 
 
 APP = """
