@@ -9,6 +9,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QDockWidget
 
 from ..models.jobs import Jobs
+from ..models.results import Notice
 from .job_status import JobStatus
 from .jobs_panel import JobsPanel
 from .theme import Theme
@@ -45,7 +46,11 @@ class BackgroundViews:
             self.training_panel.open_form()
 
     def _use(self, path: str) -> None:
-        self._window.session.choose_field(kind="distance", descriptor=path)
+        window = self._window
+        if window.session.state.active is None:
+            window.message.show_notice(Notice("Open a shape first: distance maps are drawn on it.", kind="information"))
+            return
+        window.session.choose_field(kind="distance", descriptor=path)
 
     def offer_to_go_on(self) -> None:
         """Show the list if an earlier window left something that can go on."""
