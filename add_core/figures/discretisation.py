@@ -87,11 +87,11 @@ def _patch(axes: Axes, camera: Camera, mesh: TriangleMesh, hinge: IntArray) -> N
     """Neighbouring faces, fading with the distance from the hinge."""
     centre = mesh.vertices[hinge].mean(axis=0)
     middles = mesh.vertices[mesh.faces].mean(axis=1)
-    reach = 3.2 * np.linalg.norm(mesh.vertices[hinge[0]] - mesh.vertices[hinge[1]])
+    reach = 2.1 * np.linalg.norm(mesh.vertices[hinge[0]] - mesh.vertices[hinge[1]])
     distance = np.linalg.norm(middles - centre, axis=1)
     faces = np.flatnonzero((distance < reach) & (mesh.face_normals @ camera.axes[2] > 0))
     faces = faces[np.argsort(camera.seen(middles[faces])[:, 2])]
-    fade = np.clip(1.15 - distance[faces] / reach, 0.0, 1.0)
+    fade = np.clip(1.5 * (1.0 - distance[faces] / reach), 0.0, 1.0)
     light = 0.62 + 0.42 * np.clip(mesh.face_normals[faces] @ (camera.axes.T @ [-0.3, 0.6, 0.74]), 0.0, 1.0)
     fill = np.column_stack([np.clip(np.outer(light, SKIN), 0, 1), 0.75 * fade])
     lines = np.column_stack([np.full((len(faces), 3), 0.45), 0.35 * fade])

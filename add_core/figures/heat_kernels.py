@@ -49,7 +49,7 @@ def draw(studio: Studio) -> Drawn:
     centres = _centres()
     width = centres[-1] + WIDE / 2
     for shape, source, bottom in ((mesh, studio.cast.source, 3.06), (cloud, on_cloud, 0.5)):
-        stage = studio.stage(figure, (0.45, bottom, 10.4, 2.5), studio.camera(16, 5), width=width, height=HIGH)
+        stage = studio.stage(figure, (0.45, bottom, 10.4, 2.5), studio.camera(6, 5), width=width, height=HIGH)
         for column, centre in zip(columns, centres, strict=True):
             heat = _kernel(studio, shape, source, column)
             stage.stand(shape, (centre, 0.01), positions=heat / heat.max()).mark(source, size=3.5)
