@@ -15,7 +15,7 @@ from ..drawing.camera import Camera
 from ..drawing.colours import SKIN, theta_colour
 from ..geometry import TriangleMesh, principal_curvatures
 from .drawn import Drawn
-from .page import INK, QUIET, blank
+from .page import INK, QUIET, blank, fade
 from .studio import Studio
 
 THETA = np.radians(35.0)
@@ -42,6 +42,7 @@ def draw(studio: Studio) -> Drawn:
     _patch(axes, camera, mesh, hinge)
     _hinge_lines(axes, camera, mesh.vertices[hinge], size)
     angle = _frames(axes, camera, mesh, hinge, size)
+    fade(axes, share=0.14, sides=True)
     studio.done()
     return Drawn(figure, _caption(mesh, hinge, angle))
 

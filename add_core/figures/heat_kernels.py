@@ -16,7 +16,7 @@ from .studio import Studio
 
 ALPHA, REACH, DEGREES = 50.0, 0.04, 90
 """What the columns have where they do not say otherwise; reach is t·λ₁."""
-WIDE, HIGH, GAP = 0.36, 0.83, 0.1
+WIDE, HIGH, GAP = 0.39, 0.83, 0.1
 
 
 @dataclass(frozen=True)
@@ -45,11 +45,11 @@ def draw(studio: Studio) -> Drawn:
     cloud = studio.cloud(studio.cast.hero)[0]
     mesh = studio.person(studio.cast.hero)
     on_cloud = int(np.linalg.norm(cloud.points - mesh.vertices[studio.cast.source], axis=1).argmin())
-    figure = Figure(figsize=(11.0, 6.3))
+    figure = Figure(figsize=(11.0, 5.85))
     centres = _centres()
     width = centres[-1] + WIDE / 2
-    for shape, source, bottom in ((mesh, studio.cast.source, 3.06), (cloud, on_cloud, 0.5)):
-        stage = studio.stage(figure, (0.45, bottom, 10.4, 2.5), studio.camera(6, 5), width=width, height=HIGH)
+    for shape, source, bottom in ((mesh, studio.cast.source, 2.84), (cloud, on_cloud, 0.5)):
+        stage = studio.stage(figure, (0.45, bottom, 10.4, 2.3), studio.camera(8, 5), width=width, height=HIGH)
         for column, centre in zip(columns, centres, strict=True):
             heat = _kernel(studio, shape, source, column)
             stage.stand(shape, (centre, 0.01), positions=heat / heat.max()).mark(source, size=3.5)
@@ -77,7 +77,7 @@ def _centres() -> list[float]:
 
 def _write(figure: Figure, centres: list[float], width: float) -> None:
     """Headings above the columns, a word before each row, the colour bar below."""
-    axes = blank(figure, (0.45, 5.6, 10.4, 0.66))
+    axes = blank(figure, (0.45, 5.17, 10.4, 0.66))
     axes.set(xlim=(0, width), ylim=(0, 1))
     at = iter(centres)
     for title, group in GROUPS:
@@ -88,7 +88,7 @@ def _write(figure: Figure, centres: list[float], width: float) -> None:
         for x, column in zip(places, group, strict=True):
             colour = tuple(theta_colour(np.radians(column.degrees))) if title.endswith("θ") else INK
             axes.text(x, 0.38, column.label, ha="center", va="top", fontsize=9, color=colour)
-    side = blank(figure, (0.0, 0.5, 0.45, 5.1))
+    side = blank(figure, (0.0, 0.5, 0.45, 4.6))
     for y, word in ((0.77, "mesh"), (0.27, "points")):
         side.text(0.5, y, word, rotation=90, ha="center", va="center", color=QUIET)
     box = (4.45, 0.26, 2.4, 0.09)

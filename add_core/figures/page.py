@@ -66,14 +66,23 @@ def panel(figure: Figure, box: tuple[float, float, float, float]) -> Axes:
     return axes
 
 
-def fade(axes: Axes, *, share: float = 0.1) -> None:
-    """Let a picture that goes on above and below dissolve into the page, over a `share` of the height each."""
+def fade(axes: Axes, *, share: float = 0.1, sides: bool = False) -> None:
+    """Let a picture that goes on above and below dissolve into the page, over a `share` of the height each.
+
+    sides : to the left and right too.
+    """
     left, right = axes.get_xlim()
     low, high = axes.get_ylim()
-    for start, end in ((low, low + share * (high - low)), (high, high - share * (high - low))):
-        veil = np.ones((64, 1, 4))
-        veil[:, 0, 3] = np.linspace(1.0, 0.0, 64) ** 1.5
-        axes.imshow(veil, extent=(left, right, end, start), aspect="auto", interpolation="bilinear", zorder=7)
+    up, across = share * (high - low), share * (right - left)
+    veil = np.ones((64, 1, 4))
+    veil[:, 0, 3] = np.linspace(1.0, 0.0, 64) ** 1.5
+    look: Any = {"aspect": "auto", "interpolation": "bilinear", "zorder": 7}
+    axes.imshow(veil, extent=(left, right, low + up, low), **look)
+    axes.imshow(veil, extent=(left, right, high - up, high), **look)
+    if sides:
+        turned = veil.transpose(1, 0, 2)
+        axes.imshow(turned, extent=(left, left + across, low, high), **look)
+        axes.imshow(turned, extent=(right, right - across, low, high), **look)
     axes.set(xlim=(left, right), ylim=(low, high))
 
 
