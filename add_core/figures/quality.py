@@ -27,5 +27,5 @@ class Quality:
 
 QUALITIES: dict[str, Quality] = {
     "draft": Quality("draft", 130, 2, 32, eigenpairs=100, angles=8, cloud_points=4000, pairs=2, queries=500),
-    "full": Quality("full", 180, 3, 96, eigenpairs=300, angles=16, cloud_points=4000, pairs=4, queries=1000),
+    "full": Quality("full", 160, 3, 96, eigenpairs=300, angles=16, cloud_points=4000, pairs=4, queries=1000),
 }
