@@ -28,10 +28,8 @@ a{color:#1f63b0}code{background:#f3f3f4;padding:.1rem .3rem;border-radius:3px}
 """
 
 
-def index_page(entries: Iterable[Entry], *, command: str, undrawn: Mapping[int, str] | None = None) -> str:
-    """HTML that shows the figures of `entries` from files beside it. command : makes the folder again. undrawn : why
-    figures are not there, by number.
-    """
+def index_page(entries: Iterable[Entry], *, undrawn: Mapping[int, str] | None = None) -> str:
+    """HTML that shows the figures of `entries` from files beside it. undrawn : why figures are not there, by number."""
     made = {entry.number: entry for entry in entries}
     parts = [
         '<!doctype html><html lang="en"><meta charset="utf-8">',
@@ -40,7 +38,6 @@ def index_page(entries: Iterable[Entry], *, command: str, undrawn: Mapping[int, 
         "<h1>Anisotropic Diffusion Descriptors: the figures, drawn anew</h1>",
         "<p>Each figure of Boscaini, Masci, Rodolà, Bronstein and Cremers (Eurographics 2016), computed and drawn by "
         "this program from the shapes that ship with it: synthetic people with exact correspondence.</p>",
-        f"<p class=quiet>Made by <code>{html.escape(command)}</code></p>",
         "<table><thead><tr><th>Figure</th><th>What it shows</th><th>How it differs from the paper's</th></tr></thead>",
         "<tbody>",
     ]
@@ -66,5 +63,5 @@ def _section(entry: Entry, stem: str, shows: str) -> str:
     return (
         f'<h2 id="{stem}">Figure {entry.number}. {html.escape(shows)}</h2><figure>{shown}'
         f"<figcaption>{html.escape(entry.caption)}</figcaption></figure>{notes}"
-        f"<p class=quiet>{html.escape(entry.quality)} quality, {entry.seconds:.0f} s{numbers}</p>"
+        f"<p class=quiet><code>{html.escape(entry.command)}</code> · {entry.seconds:.0f} s{numbers}</p>"
     )

@@ -16,7 +16,8 @@ FILE = "figures.json"
 @dataclass(frozen=True)
 class Entry:
     """A finished figure. files : names in the folder, the picture first. quality, image : how it was asked for.
-    training : minutes for each network that was trained for it, 0 if none was. version : of the program that drew it.
+    training : minutes for each network that was trained for it, 0 if none was. command : what was
+    run. version : of the program that drew it.
     """
 
     number: int
@@ -27,6 +28,7 @@ class Entry:
     image: str
     seconds: float
     training: float = 0.0
+    command: str = ""
     version: str = __version__
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import io
 from collections.abc import Callable, Sequence
 from contextlib import AbstractContextManager, nullcontext
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from time import perf_counter
 
@@ -92,10 +92,10 @@ def reproduce(
     studio = Studio(cast or people(), level, workshop)
     record, outcomes = Record(place), []
     for figure in figures:
-        outcome = _outcome(figure, studio, place, image, record, again=again, watch=watch)
+        outcome = _outcome(figure, studio, record, (place, image, command), again=again, watch=watch)
         outcomes.append(outcome)
         undrawn = {one.figure.number: one.reason for one in outcomes if one.entry is None}
-        page = index_page(record, command=command, undrawn=undrawn)
+        page = index_page(record, undrawn=undrawn)
         write_atomically(place / PAGE, page.encode())
         if finished is not None:
             finished(outcome)
@@ -105,22 +105,23 @@ def reproduce(
 def _outcome(
     figure: PaperFigure,
     studio: Studio,
-    folder: Path,
-    image: str,
     record: Record,
+    where: tuple[Path, str, str],
     *,
     again: bool,
     watch: Watch | None,
 ) -> Outcome:
+    folder, image, command = where
     training = studio.workshop.minutes if studio.workshop is not None and figure.can_train else 0.0
     kept = record.finished(figure.number, quality=studio.quality.name, image=image, training=training)
     if kept is not None and not again:
         return Outcome(figure, kept, kept=True)
     try:
         with nullcontext(_ignore) if watch is None else watch(figure) as studio.step:
-            entry = _made(figure, studio, folder, image, training)
+            entry = _made(figure, studio, folder, image)
     except NotDrawn as error:
         return Outcome(figure, None, reason=str(error))
+    entry = replace(entry, training=training, command=command)
     record.add(entry)
     return Outcome(figure, entry)
 
@@ -137,7 +138,7 @@ def _quality(quality: str | Quality) -> Quality:
     return QUALITIES[quality]
 
 
-def _made(figure: PaperFigure, studio: Studio, folder: Path, image: str, training: float) -> Entry:
+def _made(figure: PaperFigure, studio: Studio, folder: Path, image: str) -> Entry:
     start = perf_counter()
     with matplotlib.rc_context(TYPE):
         drawn = figure.draw(studio)
@@ -148,7 +149,7 @@ def _made(figure: PaperFigure, studio: Studio, folder: Path, image: str, trainin
         write_atomically(folder / name, data)
     seconds = round(perf_counter() - start, 1)
     said = drawn.caption, drawn.missing
-    return Entry(figure.number, tuple(files), *said, studio.quality.name, image, seconds, training)
+    return Entry(figure.number, tuple(files), *said, studio.quality.name, image, seconds)
 
 
 def _encoded(figure: Figure, image: str, dots: int) -> bytes:

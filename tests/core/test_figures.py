@@ -93,6 +93,7 @@ def test_one_command_draws_every_figure_and_a_page_around_them(tmp_path, capsys,
         assert f'src="{picture.name}"' in page
         assert html.escape(figure.difference) in page
     assert "ot drawn" not in page
+    assert page.count("<code>add-core ") == len(FIGURES)
     assert not list(folder.glob(".*")), "unfinished files are left behind"
     assert capsys.readouterr().out.count("\n") >= len(FIGURES) + 1
 
