@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QPoint, QRect, QSize, Qt, Signal
+from PySide6.QtCore import QPoint, QRect, Qt, Signal
 from PySide6.QtGui import QAction, QImage, QPainter, QResizeEvent
-from PySide6.QtWidgets import QGridLayout, QHBoxLayout, QToolButton, QWidget
+from PySide6.QtWidgets import QGridLayout, QWidget
 
 from ..models.arrangement import columns
 from ..models.display import Display
@@ -12,8 +12,10 @@ from ..models.results import Results
 from ..models.session import Session
 from .shape_view import ShapeView
 from .theme import GRID, LIGHT, Theme
+from .tool_strip import ToolStrip
 
-_TOOL = 30
+_NAME = 180
+"""Width that the name of a view should have."""
 _GAP = 1
 _NARROWEST = 200
 """Width of a view below which two rows are better than one."""
@@ -41,7 +43,7 @@ class SceneView(QWidget):
         self._grid.setContentsMargins(0, 0, 0, 0)
         self._grid.setSpacing(_GAP)
         self.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
-        self._tools = QWidget(self)
+        self._tools = ToolStrip(self)
         self._grid.addWidget(self._view(0), 0, 0)
         for signal in (session.shapes_changed, session.active_changed, session.looks_changed, session.field_changed):
             signal.connect(self._lay_out)
@@ -73,11 +75,10 @@ class SceneView(QWidget):
             self._grid.addWidget(view, place // wide, place % wide)
             view.show()
             view.show_as_source(len(state.shown) > 1 and view.key == state.active_key)
-            view.leave_right(self._tools.width() + GRID if place == min(wide, len(wanted)) - 1 else 0)
         for line in range(max(self._grid.columnCount(), self._grid.rowCount())):
             self._grid.setColumnStretch(line, int(line < wide))
             self._grid.setRowStretch(line, int(line < -(-len(wanted) // wide)))
-        self._tools.raise_()
+        self._place_tools()
 
     def _bind(self, wanted: list[tuple[int, str | None]]) -> None:
         """Give each wanted panel and shape a view, the one that has it already if there is one."""
@@ -123,7 +124,7 @@ class SceneView(QWidget):
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         super().resizeEvent(event)
-        self._tools.move(self.width() - self._tools.width() - 2 * GRID, 2 * GRID)
+        self._place_tools()
         if self._used > 1 and self._grid.itemAtPosition(0, self._columns(self._used) - 1) is None:
             self._lay_out()
 
@@ -159,18 +160,16 @@ class SceneView(QWidget):
 
     def show_tools(self, actions: list[QAction]) -> None:
         """Offer `actions` as icons in the upper right corner."""
-        row = QHBoxLayout(self._tools)
-        row.setContentsMargins(0, 0, 0, 0)
-        row.setSpacing(GRID // 2)
-        for action in actions:
-            button = QToolButton()
-            button.setDefaultAction(action)
-            button.setIconSize(QSize(18, 18))
-            button.setFixedSize(_TOOL, _TOOL)
-            button.setFocusPolicy(Qt.FocusPolicy.NoFocus)
-            row.addWidget(button)
-        self._tools.setFixedSize(len(actions) * (_TOOL + GRID // 2), _TOOL)
-        self._tools.raise_()
+        self._tools.show_actions(actions)
+        self._place_tools()
+
+    def _place_tools(self) -> None:
+        """In a row beside the name of the view in that corner, or upright where the name needs the room."""
+        corner = self.views[min(self._columns(self._used), self._used) - 1]
+        upright = self._used > 1 and self.width() / self._columns(self._used) < self._tools.extent + _NAME
+        self._tools.place(upright=upright)
+        for view in self.views:
+            view.leave_right(self._tools.width() + GRID if view is corner else 0)
 
     def picture(self, scale: float, *, transparent: bool = False, labels: bool = True) -> QImage:
         """All views as they stand, at `scale` times their size."""

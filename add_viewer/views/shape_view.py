@@ -22,7 +22,6 @@ IDLE_TEXT = "Click picks a point · drag turns · wheel zooms · right click for
 _FRONTS = {"y": "+z", "z": "-y"}
 _SMALL = QSize(460, 380)
 """Views smaller than this in one direction have smaller labels."""
-_SHORTEST_NAME = 120
 
 
 class ShapeView(QWidget):
@@ -230,13 +229,12 @@ class ShapeView(QWidget):
     def _place_labels(self) -> None:
         width, height, gap = self.width(), self.height(), 2 * GRID
         small = width < _SMALL.width() or height < _SMALL.height()
-        self.colour_bar.show_small(small, width - 2 * gap)
+        self.colour_bar.show_small(small, max(10 * GRID, width - 2 * gap))
         self.label.show_small(small)
         self.canvas.leave_below(self.colour_bar.height() if small else 0)
-        crowded = width - 2 * gap - self._room_right < _SHORTEST_NAME
-        self.label.setFixedWidth(max(40, min(400, width - 2 * gap - (0 if crowded else self._room_right))))
+        self.label.setFixedWidth(max(40, min(400, width - 2 * gap - self._room_right)))
         self.triad.setVisible(not small)
-        self.label.move(gap, gap + (5 * GRID if crowded else 0))  # below the buttons, or beside them
+        self.label.move(gap, gap)
         self.triad.move(gap - 4, height - self.triad.height() - gap + 4)
         left = (width - self.colour_bar.width()) // 2 if small else width - self.colour_bar.width() - gap
         self.colour_bar.move(left, height - self.colour_bar.height() - (GRID // 2 if small else gap))
