@@ -69,7 +69,7 @@ class Photographer:
 
         if waits:
             self.wait(is_settled)
-        end = time.perf_counter() + 1.0
+        end = time.perf_counter() + 3.0
         self.wait(lambda: time.perf_counter() > end)
 
     def save(self, name: str) -> None:

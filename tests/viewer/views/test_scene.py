@@ -123,6 +123,14 @@ def test_the_source_alone_can_be_shown(people):
     assert len(people.window.scene.views) == 2
 
 
+def test_a_view_without_room_keeps_its_camera_a_number(people):
+    canvas = view(people, "humans/0").canvas
+    canvas.setFixedWidth(0)
+    canvas.fit()
+    assert np.isfinite(canvas.camera_model.focal).all()
+    assert np.isfinite(canvas.camera_model.distance)
+
+
 def test_a_picture_of_several_views_is_one_picture(people, tmp_path):
     image = people.window.scene.picture(2)
     assert (image.width(), image.height()) == (2 * people.window.scene.width(), 2 * people.window.scene.height())
