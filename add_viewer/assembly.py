@@ -139,10 +139,20 @@ class Assembly:
         self.keeping.outside = Outside(files.cameras, files.layout, files.apply)
         self._keep_settings()
         self._resting = Delay(RESTING_PAUSE)
-        self.session.shapes_changed.connect(lambda: self._resting(give_back))
+        self.session.shapes_changed.connect(lambda: self._resting(self._give_back))
         self.recovery = Recovery(self.keeping, files.banner)
         if self._screenshot is None:
             self.recovery.offer()
+
+    def _give_back(self) -> None:
+        """Let go of what closed shapes left, on the thread that the operators belong to."""
+        shapes = self.session.state.shapes
+
+        def work() -> None:
+            self.operators.keep_only(shapes)
+            give_back()
+
+        self.worker.submit("rest", work, done=lambda _: None, failed=self.results.report)
 
     def _keep_settings(self) -> None:
         settings = self.window.settings

@@ -34,6 +34,11 @@ class OperatorStore:
         for kept, each in ((self._bases, 4), (self._operators, 6), (self._flows, 4)):
             kept.resize(each + (count - 1) * (each // 2))
 
+    def keep_only(self, shapes: tuple[OpenShape, ...]) -> None:
+        """Forget what belongs to other shapes: the factorisations of a large one hold gigabytes."""
+        for kept in (self._bases, self._operators, self._flows):
+            kept.keep_only(shapes)
+
     def laplacian(self, shape: OpenShape, conductivity: Conductivity, alpha: float) -> AnisotropicLaplacian:
         """The operator of `shape`; frames and sparsity are shared between all α."""
         key = (shape, conductivity, alpha)
@@ -72,6 +77,11 @@ class _Latest(Generic[_Value]):
         self._size = size
         while len(self._kept) > size:
             self._kept.popitem(last=False)
+
+    def keep_only(self, firsts: tuple[object, ...]) -> None:
+        """Drop the values whose key does not begin with one of `firsts`."""
+        for key in [key for key in self._kept if key[0] not in firsts]:
+            del self._kept[key]
 
     def get(self, key: tuple[object, ...]) -> _Value | None:
         if key in self._kept:

@@ -10,7 +10,7 @@ from typing import Any
 
 from PySide6.QtCore import QObject, Qt, QThread, Signal, Slot
 
-LANES = ("open", "kernel", "fields", "answers", "insights", "directions", "curves", "export")
+LANES = ("open", "kernel", "fields", "answers", "insights", "directions", "curves", "export", "rest")
 """In the order in which waiting work is taken up."""
 
 _log = logging.getLogger(__name__)
