@@ -36,6 +36,8 @@ _LEARNED = {
 }
 
 
+_METHODS = {"osd": "OSD", "wft": "learned WFT", "add3": "ADD3", "madd3": "mADD3"}
+
 _OWN: dict[str, str] = {}
 
 
@@ -56,5 +58,9 @@ def descriptor_name(name: str) -> DescriptorName:
     own = path.name != name
     if name in _OWN:
         return DescriptorName(name, _OWN[name], "Your own trained model.")
-    title = path.parent.name if own and path.stem in ("model", "best", "last", "checkpoint") else path.stem
-    return DescriptorName(name, title, "Your own trained model." if own else "A learned descriptor that ships.")
+    if own:
+        title = path.parent.name if path.stem in ("model", "best", "last", "checkpoint") else path.stem
+        return DescriptorName(name, title, "Your own trained model.")
+    shapes, _, method = name.rpartition("-")
+    title = f"{_METHODS.get(method, method)} ({shapes})" if shapes else name
+    return DescriptorName(name, title, f"A descriptor learned on {shapes or 'shapes'}, which ships with the app.")
