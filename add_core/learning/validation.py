@@ -23,7 +23,8 @@ POINTS = 1000
 @dataclass(frozen=True)
 class ValidationScores:
     """Means over the pairs of shapes. loss : soft nearest neighbour, or (22) of a classifier. cmc1, cmc10 : among
-    1,000 candidates, asymmetric. right_side : NaN without a symmetry.
+    1,000 candidates, asymmetric; among all vertices of the reference for a classifier, whose auc is the share of false
+    vertices that are less probable than the true one. right_side : NaN without a symmetry.
     """
 
     loss: float
@@ -67,6 +68,8 @@ class Validator:
 
     def _of_pair(self, network: Network, one: PreparedShape, two: PreparedShape, places: IntArray) -> ValidationScores:
         a, b = (self._outputs(network, shape, places) for shape in (one, two))
+        if network.is_classifier:
+            return self._of_classes(torch.from_numpy(a), torch.from_numpy(places.copy()))
         truth = np.arange(len(places))
         x, y = (np.asarray(values, dtype=np.float64) for values in (a, b))
         matches = cmc(x, y, truth, ranks=10)
@@ -75,20 +78,33 @@ class Validator:
             number = {int(place): row for row, place in enumerate(places)}
             mirror = np.array([number.get(int(self._symmetry[place]), row) for row, place in enumerate(places)])
             side = right_side(x, y, truth, symmetry=mirror).share
-        loss = self._loss(network, torch.from_numpy(a), torch.from_numpy(b), places)
+        distances = squared_distances(torch.from_numpy(a), torch.from_numpy(b))
+        loss = float(soft_nearest_loss(distances, torch.zeros_like(distances, dtype=torch.bool)))
         return ValidationScores(loss, roc(x, y, truth).auc, matches.headline, matches.at(10), side)
+
+    def _of_classes(self, logits: torch.Tensor, places: torch.Tensor) -> ValidationScores:
+        """Scores of logits (B, P): how many of the reference's vertices are more probable than the true one."""
+        true = logits.gather(1, places[:, None])
+        before = (logits > true).sum(dim=1).double()
+        side = float("nan")
+        if self._symmetry is not None:
+            mirror = torch.from_numpy(np.array(self._symmetry))[places]
+            has_other = (mirror != places) & (mirror >= 0) & (mirror < logits.shape[1])
+            other = logits.gather(1, torch.where(has_other, mirror, places)[:, None])
+            side = float((true > other)[has_other].double().mean())
+        return ValidationScores(
+            float(multinomial_loss(logits, places)),
+            float(1 - before.mean() / (logits.shape[1] - 1)),
+            float((before < 1).double().mean()),
+            float((before < 10).double().mean()),
+            side,
+        )
 
     def _outputs(self, network: Network, shape: PreparedShape, places: IntArray) -> Inputs:
         values = shape.inputs(shape.vertex_at[places], self._moments)
         with torch.inference_mode():
             outputs: Inputs = network.logits(torch.from_numpy(values)).numpy()
         return outputs
-
-    def _loss(self, network: Network, a: torch.Tensor, b: torch.Tensor, places: IntArray) -> float:
-        if network.is_classifier:
-            return float(multinomial_loss(a, torch.from_numpy(places)))
-        distances = squared_distances(a, b)
-        return float(soft_nearest_loss(distances, torch.zeros_like(distances, dtype=torch.bool)))
 
 
 def _shared(one: PreparedShape, two: PreparedShape, symmetry: IntArray | None, draw: np.random.Generator) -> IntArray:

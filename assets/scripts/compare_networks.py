@@ -1,6 +1,6 @@
 """The comparison of the paper's Figures 7 and 8: networks of equal budget and signatures, on the test people.
 
-    python compare_networks.py -o FOLDER [--inputs RUN/inputs] [--report ../reports/learned]
+    python compare_networks.py -o FOLDER [--inputs RUN/inputs] [--report ../reports]
 
 All networks learn from the same bodies for the same number of mini-batches; OSD is in closed form and learns from them
 too, the windowed Fourier network from as many mini-batches of a part of them. FOLDER keeps what was done.
@@ -41,7 +41,7 @@ SETTINGS = TrainingSettings(
     steps=1000, pairs=160, noise=0.15, averaging=0.99, arithmetic="bfloat16", checkpoint_every=250, validate_every=250
 )
 ISOTROPIC = ("ADD1", "ADD3", "mADD1", "mADD3")
-"""Networks whose isotropic twins are trained too."""
+"""Networks whose isotropic twins are trained too; that of mADD3 is the isotropic network of the figures."""
 SIGNATURES = ("hks", "wks")
 VARIANTS = ("mesh", "remeshed", "cloud")
 PAIRS, QUERIES = 6, 1000
@@ -160,12 +160,13 @@ def learned_methods(folder: Path, inputs: Path) -> dict[str, Describe]:
     """All that learn, from the least to the most that they can express."""
     bodies = [training_bodies.person(number) for number in BODIES]
     shapes = prepare(bodies, RECIPE, inputs)
-    made: dict[str, Describe] = {"OSD": osd(shapes)}
+    made: dict[str, Describe] = {"osd": osd(shapes)}
     meshes = [item for item in bodies if isinstance(item.shape, TriangleMesh)]
-    made["WFT network"] = windowed_fourier(meshes[:24], folder / "wft.pt")
+    made["learned-wft"] = windowed_fourier(meshes[:24], folder / "wft.pt")
     for name in ("ADD1", "ADD2", "ADD3", "mADD1", "mADD2", "mADD3"):
         if name in ISOTROPIC:
-            made[f"{name}, isotropic"] = network(name, shapes, folder / f"{name}-isotropic", isotropic=True)
+            twin = "isotropic" if name == "mADD3" else f"{name}, isotropic"
+            made[twin] = network(name, shapes, folder / f"{name}-isotropic", isotropic=True)
         made[name] = network(name, shapes, folder / name)
         print(name, flush=True)
     return made
@@ -176,7 +177,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("-o", "--output", type=Path, required=True)
     parser.add_argument("--inputs", type=Path)
-    parser.add_argument("--report", type=Path, default=Path(__file__).parents[1] / "reports" / "learned")
+    parser.add_argument("--report", type=Path, default=Path(__file__).parents[1] / "reports")
     parser.add_argument("--models", nargs="*", default=["humans-madd3"], help="Score these too.")
     parser.add_argument("--only-models", action="store_true", help="Train nothing; scores.json of the first.")
     given = parser.parse_args()
@@ -184,7 +185,7 @@ def main() -> None:
     given.output.mkdir(parents=True, exist_ok=True)
     methods: dict[str, Describe] = {}
     if not given.only_models:
-        methods |= {name.upper(): signature(name) for name in SIGNATURES}
+        methods |= {name: signature(name) for name in SIGNATURES}
         methods |= learned_methods(given.output, given.inputs or given.output / "inputs")
     methods |= {str(name): shipped(name) for name in given.models}
     found: dict[str, dict[str, float]] = {}
@@ -198,7 +199,7 @@ def main() -> None:
         note = f"{SETTINGS.steps} mini-batches of {SETTINGS.pairs} pairs from {len(BODIES)} bodies for each network."
         save_report(
             scores,
-            given.report / variant,
+            given.report / f"learned_{variant}",
             title=f"16 numbers, test people, {variant}",
             command="python assets/scripts/compare_networks.py -o FOLDER",
             notes=[f"{PAIRS} pairs, {QUERIES} queries each.", note],

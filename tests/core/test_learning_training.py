@@ -24,6 +24,7 @@ from add_core.learning.pairs import Batch, PairSampler
 from add_core.learning.settings import learning_rate
 from add_core.learning.training import CHECKPOINT, MODEL, fit
 from add_core.learning.training_set import PreparedShape, prepare
+from add_core.learning.validation import Validator
 
 RECIPE = InputRecipe(alphas=(0.0, 30.0), angles=2, eigenpairs=30, splines=12)
 SMALL = Architecture("small", "ASF16 ReLU SC FC32 ReLU FC8", channels=3, splines=12)
@@ -196,6 +197,23 @@ def test_a_correspondence_network_names_vertices_of_its_reference(tmp_path):
     assert_allclose(probabilities.max(axis=1), matches.probabilities)
     embedded = model.embed(bodies[0].shape, workers=1, cache=False)
     assert_array_equal(embedded, model.reference.vertices[matches.vertices])
+
+
+def test_a_correspondence_network_is_judged_by_the_probability_of_the_true_vertex():
+    """A network that passes on its input of 20 numbers, which are its logits."""
+    network = build(Architecture("passes", "SC FCreference Softmax", 1, 20, reference_size=20, bias=False))
+    with torch.no_grad():
+        next(network.parameters()).copy_(torch.eye(20))
+    logits = np.zeros((20, 1, 20), np.float32)
+    logits[np.arange(20), 0, np.arange(20)] = 1.0
+    logits[:5, 0, 19] = 2.0  # one vertex before the true one, at a quarter of the points
+    logits[5:10, 0, :] = np.eye(20, dtype=np.float32)[np.arange(5, 10) ^ 1]  # the mirror image before the true one
+    shapes = [made_up(logits), made_up(logits)]
+    scores = Validator(shapes, symmetry=np.arange(20) ^ 1).scores(network)
+    assert (scores.cmc1, scores.cmc10, scores.right_side) == (0.5, 1.0, 0.75)
+    assert scores.auc == pytest.approx(1 - 0.5 / 19)
+    expected = torch.nn.functional.cross_entropy(torch.from_numpy(logits[:, 0]), torch.arange(20)).item()
+    assert scores.loss == pytest.approx(expected, rel=1e-5)
 
 
 def test_a_network_that_gives_descriptors_names_no_vertices(shapes, tmp_path):
