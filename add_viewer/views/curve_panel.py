@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+from functools import cached_property
 from math import pi, radians
 from pathlib import Path
 from typing import Any
@@ -44,7 +45,6 @@ class CurvePanel(QWidget):
         self._session, self._results, self._display, self._theme = session, results, display, LIGHT
         self.figure = Figure()
         self.canvas = _BlittedCanvas(self.figure)
-        self.plots = CurvePlots(self.figure)
         self._empty = QLabel("Pick a point to see how much heat stays there, for every direction and time")
         self._empty.setAlignment(Qt.AlignmentFlag.AlignCenter)
         self._empty.setWordWrap(True)
@@ -53,6 +53,13 @@ class CurvePanel(QWidget):
         self._legend.setProperty("role", "muted")
         self._lay_out()
         self._connect()
+
+    @cached_property
+    def plots(self) -> CurvePlots:
+        """Made when they are drawn first: axes take a tenth of a second, which the first picture must not wait for."""
+        made = CurvePlots(self.figure)
+        self.canvas.place = self._place
+        return made
 
     def _lay_out(self) -> None:
         plots = QWidget()
@@ -73,7 +80,6 @@ class CurvePanel(QWidget):
         self._frame.timeout.connect(self._draw_moving)
         self._renewal = QTimer(self, singleShot=True)
         self._renewal.timeout.connect(self._draw_all)
-        self.canvas.place = self._place
         for event in ("button_press_event", "motion_notify_event"):
             self.canvas.mpl_connect(event, self._dragged)
         self.canvas.mpl_connect("button_release_event", lambda _event: self._session.end_gesture())
@@ -120,7 +126,9 @@ class CurvePanel(QWidget):
         self.plots.lay_out(width / ratio, height / ratio)
 
     def _draw_all(self) -> None:
-        self.plots.draw_static(self.scene())
+        plots = self.plots
+        self._place()
+        plots.draw_static(self.scene())
         self.canvas.draw()
         self.canvas.draw_artists(self.plots.moving_artists(self.scene()))
 
