@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -13,13 +15,24 @@ BEST = 5
 APART = 0.05
 """Distance between two of them, in geodesic diameters: neighbours of the best place are no news."""
 SAMPLES = 400
+BLOCK = 4_000_000
+"""Numbers compared at a time: 16 MB."""
 
 
 def distance_map(descriptors: NDArray[np.floating], point: NDArray[np.floating]) -> FloatArray:
     """(n,): Euclidean distance of each row of `descriptors` (n, d) to `point` (d,), as in the paper's Figure 6."""
-    gaps = descriptors - point
-    squared: FloatArray = np.einsum("nd,nd->n", gaps, gaps, dtype=np.float64)
-    return np.sqrt(squared)
+    return _lengths(descriptors, lambda rows: point)
+
+
+def _lengths(descriptors: NDArray[np.floating], others: Callable[[slice], NDArray[np.floating]]) -> FloatArray:
+    """(n,) of the differences to `others`, given for a slice of rows: wide descriptors are not copied whole."""
+    lengths = np.empty(len(descriptors))
+    step = max(1, BLOCK // max(descriptors.shape[1], 1))
+    for low in range(0, len(descriptors), step):
+        rows = slice(low, low + step)
+        gaps = descriptors[rows] - others(rows)
+        lengths[rows] = np.einsum("nd,nd->n", gaps, gaps, dtype=np.float64)
+    return np.sqrt(lengths)
 
 
 def best_places(distances: FloatArray, vertices: FloatArray, *, count: int = BEST, apart: float = APART) -> IntArray:
@@ -44,8 +57,7 @@ def ambiguity(descriptors: NDArray[np.floating], symmetry: IntArray) -> FloatArr
     symmetry : (n,) the mirror image of every vertex. 0: taken for its mirror image; 1: told apart as well as any two
     points. Vertices that are their own image get NaN: there is nothing to tell apart.
     """
-    gaps = descriptors - descriptors[symmetry]
-    own: FloatArray = np.sqrt(np.einsum("nd,nd->n", gaps, gaps, dtype=np.float64))
+    own = _lengths(descriptors, lambda rows: descriptors[symmetry[rows]])
     own[symmetry == np.arange(len(symmetry))] = np.nan
     return own / max(median_distance(descriptors), np.finfo(np.float64).tiny)
 

@@ -9,7 +9,7 @@ from ..models.fields import ShapeField, ValueScale
 from ..models.picks import Pick
 from ..models.session import SessionState
 from .descriptor_maps import ambiguity, best_places, distance_map
-from .field_plans import Place, Plan, Sources, same
+from .field_plans import Place, Plan, Same, Sources
 
 MISTAKEN = 0.01
 """Distance to the mirror image, ÷ median, up to which a point counts as mistaken for it: the cold end of colours."""
@@ -34,7 +34,7 @@ def distance_plan(place: Place, sources: Sources) -> Plan:
     def work() -> ShapeField:
         return _distance_field(place, distance_map(ours, point), own)
 
-    return Plan((place.choice, same(ours), same(theirs), pick.shape, pick.vertex), work)
+    return Plan((place.choice, Same(ours), Same(theirs), pick.shape, pick.vertex), work)
 
 
 def _distance_field(place: Place, values: np.ndarray, own: int | None) -> ShapeField:
@@ -78,7 +78,7 @@ def ambiguity_plan(place: Place, sources: Sources) -> Plan:
             unit="medians",
         )
 
-    return Plan((place.choice, same(ours), same(symmetry)), work)
+    return Plan((place.choice, Same(ours), Same(symmetry)), work)
 
 
 def signature_plan(place: Place, sources: Sources) -> Plan:
@@ -103,7 +103,7 @@ def signature_plan(place: Place, sources: Sources) -> Plan:
             symbol="value",
         )
 
-    return Plan((place.choice, same(ours), index), work)
+    return Plan((place.choice, Same(ours), index), work)
 
 
 def asked_point(state: SessionState) -> Pick | None:

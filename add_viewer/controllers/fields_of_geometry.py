@@ -9,7 +9,7 @@ from add_core.geometry import TriangleMesh
 from add_core.geometry.frames import PrincipalFrames
 
 from ..models.fields import ShapeField, ValueScale
-from .field_plans import Place, Plan, Sources, same
+from .field_plans import Place, Plan, Same, Sources
 
 FloatArray = NDArray[np.float64]
 
@@ -50,7 +50,7 @@ def curvature_plan(place: Place, sources: Sources) -> Plan:
             unit=f"/{unit[2:]}" if unit else "",
         )
 
-    return Plan((choice, same(shape.shape)), work)
+    return Plan((choice, Same(shape.shape)), work)
 
 
 def curvature(frames: PrincipalFrames, name: str) -> FloatArray:
@@ -87,7 +87,7 @@ def file_plan(place: Place, sources: Sources) -> Plan:
     def work() -> ShapeField:
         return file_field(place, np.asarray(shape.fields[name], dtype=np.float64), column)
 
-    return Plan((place.choice, same(shape.fields[name]), column), work)
+    return Plan((place.choice, Same(shape.fields[name]), column), work)
 
 
 def file_field(place: Place, values: FloatArray, column: int) -> ShapeField:

@@ -12,7 +12,7 @@ from add_core.drawing.position_colours import position_colours
 from ..models.diffusion import Diffusion
 from ..models.fields import FieldChoice, ShapeField, ValueScale
 from ..models.shapes import OpenShape
-from .field_plans import Place, Plan, Sources, same
+from .field_plans import Place, Plan, Same, Sources
 from .operators import OperatorStore
 
 FloatArray = NDArray[np.float64]
@@ -40,7 +40,7 @@ def transfer_plan(place: Place, sources: Sources) -> Plan:
             caption=f"Colours of {source.name}" if place.shape.key != source.key else "The source of the colours",
         )
 
-    return Plan((place.choice, same(match) if place.shape.key != source.key else 0, same(source.shape)), work)
+    return Plan((place.choice, Same(match) if place.shape.key != source.key else 0, Same(source.shape)), work)
 
 
 def _heat_plan(place: Place, source: OpenShape, sources: Sources) -> Plan:
@@ -67,8 +67,8 @@ def _heat_plan(place: Place, source: OpenShape, sources: Sources) -> Plan:
             unit="/⌀²",
         )
 
-    changing = same(match) if place.shape.key != source.key else 0
-    return Plan((place.choice, changing, same(source.shape), vertices, diffusion), work)
+    changing = Same(match) if place.shape.key != source.key else 0
+    return Plan((place.choice, changing, Same(source.shape), vertices, diffusion), work)
 
 
 def _heat(source: OpenShape, vertices: tuple[int, ...], diffusion: Diffusion, operators: OperatorStore) -> FloatArray:
@@ -85,7 +85,7 @@ def error_plan(place: Place, sources: Sources) -> Plan:
     source, shape = place.state.active, place.shape
     assert source is not None
     if shape.key == source.key:
-        return Plan((place.choice, same(shape.shape)), lambda: _source_of_errors(place))
+        return Plan((place.choice, Same(shape.shape)), lambda: _source_of_errors(place))
     matching = place.state.matching
     if matching.method == "true":
         return Plan(message="The true correspondence has no error. Choose another matching.")
@@ -100,7 +100,7 @@ def error_plan(place: Place, sources: Sources) -> Plan:
     def work() -> ShapeField:
         return _error_field(place, error * root)
 
-    return Plan((place.choice, same(error)), work)
+    return Plan((place.choice, Same(error)), work)
 
 
 def _error_field(place: Place, values: FloatArray) -> ShapeField:

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from ..models.fields import ShapeField, ValueScale
 from ..models.session import SessionState
-from .field_plans import Place, Plan, Sources, same
+from .field_plans import Place, Plan, Same, Sources
 from .spectra import Eigenpairs, SpectrumQuestion
 
 FloatArray = NDArray[np.float64]
@@ -63,7 +63,7 @@ def eigenfunction_plan(place: Place, sources: Sources) -> Plan:
             unit="/⌀",
         )
 
-    return Plan((place.choice, same(pairs), index, _operator(place.state)), work)
+    return Plan((place.choice, Same(pairs), index, _operator(place.state)), work)
 
 
 def kernel_plan(place: Place, sources: Sources) -> Plan:
@@ -83,7 +83,7 @@ def kernel_plan(place: Place, sources: Sources) -> Plan:
         laplacian = sources.operators.laplacian(place.shape, diffusion.conductivity, diffusion.alpha)
         return _kernel_field(place, chosen, pairs, vertices, diffusion.reach / laplacian.weyl_eigenvalue(1))
 
-    return Plan((place.choice, same(pairs), vertices, diffusion), work)
+    return Plan((place.choice, Same(pairs), vertices, diffusion), work)
 
 
 def _kernel_field(
