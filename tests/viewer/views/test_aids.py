@@ -100,3 +100,15 @@ def test_the_sheet_lists_every_key_of_every_action(person, qtbot, key):
 
 def test_plain_words_have_no_mnemonic():
     assert plain("Save && e&xport…") == "Save & export"
+
+
+def test_copy_as_script_puts_python_on_the_clipboard(person, make_torus, qtbot):
+    qtbot.waitUntil(person.window.isActiveWindow)
+    assert not person.window.menus.actions["script"].isEnabled()
+    person.session.add_shape(make_torus())
+    person.session.pick(7)
+    qtbot.keyClick(person.window, Qt.Key.Key_C, CONTROL_SHIFT)
+    script = person.assembly.app.clipboard().text()
+    compile(script, "script.py", "exec")
+    assert "picks = {'torus': [7]}" in script
+    assert "HeatFlow" in script
