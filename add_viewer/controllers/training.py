@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable
 from importlib.util import find_spec
 from pathlib import Path
-from time import strftime, strptime
 
 from psygnal import Signal
 
+from ..models.job_words import moment_of
 from ..models.jobs import Job, JobRequest, Jobs
 from ..models.training import MODEL_FILE, TrainingRequest
 from ..models.training_curves import TrainingCurves
@@ -72,7 +72,7 @@ class TrainingController:
     def models(self) -> list[tuple[str, str]]:
         """Titles and paths of all models, the newest training's first."""
         found = [(job, self.model(job.id)) for job in self.runs]
-        return [(f"{job.request.title} ({_moment(job)})", str(path)) for job, path in found if path is not None]
+        return [(f"{job.request.title} ({moment_of(job)})", str(path)) for job, path in found if path is not None]
 
     def delete(self, id: str) -> None:
         """Forget a training that does not run, with its model."""
@@ -101,11 +101,3 @@ class TrainingController:
         path = self.model(id)
         if path is not None:
             self.models_changed.emit(str(path))
-
-
-def _moment(job: Job) -> str:
-    """When the training was asked for, which its folder's name tells."""
-    try:
-        return strftime("%d %b %H:%M", strptime(job.id[:15], "%Y%m%d-%H%M%S"))
-    except ValueError:
-        return job.id

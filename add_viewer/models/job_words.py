@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from time import strftime, strptime
+
 from .jobs import Job, State
 
 STATE_WORDS: dict[State, str] = {
@@ -13,6 +15,14 @@ STATE_WORDS: dict[State, str] = {
     "paused": "Paused",
     "interrupted": "Interrupted",
 }
+
+
+def moment_of(job: Job) -> str:
+    """When the job was asked for, as its folder's name tells: "28 Nov 11:38"."""
+    try:
+        return strftime("%d %b %H:%M", strptime(job.id[:15], "%Y%m%d-%H%M%S"))
+    except ValueError:
+        return job.id
 
 
 def time_words(seconds: float) -> str:

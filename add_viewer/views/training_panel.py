@@ -22,7 +22,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from ..models.job_words import headline, remark
+from ..models.job_words import headline, moment_of, remark
 from ..models.jobs import Job, Jobs, Verb
 from ..models.training import TrainingRequest
 from ..models.training_curves import TrainingCurves
@@ -236,7 +236,7 @@ class TrainingPanel(QWidget):
                 self.list.setCurrentRow(ids.index(selected) if selected in ids else 0)
         for number, job in enumerate(runs):
             self.list.item(number).setText(f"{job.request.title}\n{_short(job)}")
-            self.list.item(number).setToolTip(job.request.title)
+            self.list.item(number).setToolTip(f"{job.request.title}, {moment_of(job)}")
         self._stack.setCurrentIndex(1 if runs else 0)
         self._show_run()
 
@@ -277,9 +277,10 @@ class TrainingPanel(QWidget):
 
 
 def _short(job: Job) -> str:
-    """For the list: "Running, 34 %"."""
-    share = f", {100 * job.share:.0f} %" if job.state == "running" and job.share is not None else ""
-    return ("Running" if job.state == "running" else headline(job)) + share
+    """For the list: "Running, 34 %", "Done, 28 Nov 11:38"."""
+    if job.state == "running":
+        return "Running" if job.share is None else f"Running, {100 * job.share:.0f} %"
+    return f"Done, {moment_of(job)}" if job.state == "done" else headline(job)
 
 
 def _waiting(job: Job) -> str:
