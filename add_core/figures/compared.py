@@ -35,7 +35,7 @@ class Comparison:
 
 
 def shipped_comparison() -> Comparison | None:
-    """The report, among those that ship, with most of `ARCHITECTURES`; None if none has two of them."""
+    """The report on meshes, among those that ship, with most of `ARCHITECTURES`; None if none has two of them."""
     best, most = None, 1
     for folder in _reports():
         comparison = Comparison(tuple(load_report(folder)), f"the report {folder.name} that ships with the project")
@@ -50,7 +50,7 @@ def _reports() -> list[Path]:
         folder = asset("reports", "README.md").parent
     except ShapeFileError:
         return []
-    return sorted(path.parent for path in folder.glob("*/scores.json"))
+    return sorted(path.parent for path in folder.glob("*_mesh/scores.json"))
 
 
 def train_all(studio: Studio, folder: Path, minutes: float) -> list[str]:

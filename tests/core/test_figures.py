@@ -66,8 +66,8 @@ def reports(tmp_path, monkeypatch):
     )
     numbers = {"CMC@1 symmetric": 0.5, "CMC@1 asymmetric": 0.4, "P(right side)": 0.9}
     found = [Scores(name, 3, numbers, curves) for name in ("madd3", "osd", "add1")]
-    save_report(found, tmp_path / "comparison", title="networks")
-    monkeypatch.setattr(compared, "_reports", lambda: [tmp_path / "comparison"])
+    save_report(found, tmp_path / "learned_mesh", title="networks")
+    monkeypatch.setattr(compared, "_reports", lambda: [tmp_path / "learned_mesh"])
 
 
 @pytest.fixture(autouse=True)

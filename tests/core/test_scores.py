@@ -8,10 +8,11 @@ import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 
 from add_core.errors import ParameterError
-from add_core.evaluation import averaged, descriptor_scores, match_scores, princeton, save_report, table
+from add_core.evaluation import Scores, averaged, descriptor_scores, match_scores, princeton, save_report, table
 from add_core.evaluation.baselines import BASELINES, describe_with, functional_map_matches, refined_matches
+from add_core.evaluation.report_reading import load_report
 from add_core.evaluation.samples import VARIANTS, Sample, at_vertices, sample, truth_between
-from add_core.evaluation.scores import query_rows
+from add_core.evaluation.scores import Curve, query_rows
 from add_core.geometry import TriangleMesh
 from add_core.geometry.closest import closest_points
 from add_core.geometry.shapes import ellipsoid, rectangle, sphere
@@ -156,3 +157,15 @@ def test_functional_maps_and_their_refinement_find_a_shape_in_itself():
     family = compute_spectra(TriangleMesh(bump, sphere(2).faces), alphas=(0.0,), angles=1, count=40, cache=False)
     matches = functional_map_matches(family, family)
     assert_array_equal(refined_matches(family, family, matches).match_21, np.arange(162))
+
+
+def test_a_report_reads_back_as_it_was_written(tmp_path):
+    curve = Curve("roc", "symmetric", np.array([0.0, 0.125, 1.0]), np.array([0.0, 0.5, 1.0]))
+    written = [Scores("b, with a comma", 3, {"AUC symmetric": 0.9}, (curve,)), Scores("a", 2, {"CMC@1": 0.25}, ())]
+    save_report(written, tmp_path, title="scores")
+    read = load_report(tmp_path)
+    assert [(s.method, s.pairs, s.numbers) for s in read] == [(s.method, s.pairs, s.numbers) for s in written]
+    assert_allclose(read[0].curve("roc", "symmetric").x, curve.x)
+    assert_allclose(read[0].curve("roc", "symmetric").y, curve.y)
+    with pytest.raises(ParameterError, match="holds no report of add-core evaluate"):
+        load_report(tmp_path / "elsewhere")
