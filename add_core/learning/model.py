@@ -11,13 +11,14 @@ from typing import Any, Literal
 import numpy as np
 import torch
 from safetensors import SafetensorError, safe_open
-from safetensors.torch import save_file
+from safetensors.torch import save as serialise
 
 from .._assets import asset
 from .._check import FloatArray, IntArray, one_of, read_only
 from ..errors import AddError, ParameterError, ShapeFileError
 from ..geometry import PointCloud, TriangleMesh
 from ..io import shipped_models
+from ..io.atomic import write_atomically
 from .architectures import Architecture, Network, build
 from .inputs import InputRecipe, Inputs, Moments, Progress
 
@@ -170,11 +171,8 @@ class Model:
             tensors["reference.faces"] = torch.from_numpy(self.reference.faces.astype(np.int32, order="C"))
         target = Path(path)
         target.parent.mkdir(parents=True, exist_ok=True)
-        unfinished = target.with_name(f".{target.name}.part")
-        save_file(
-            tensors, str(unfinished), metadata={"about": json.dumps(about)}
-        )  # one entry: several come in random order
-        unfinished.replace(target)
+        # One entry of metadata: several come in random order.
+        write_atomically(target, serialise(tensors, metadata={"about": json.dumps(about)}))
 
 
 def load_model(model: str | Path) -> Model:

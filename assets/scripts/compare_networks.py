@@ -132,7 +132,7 @@ def evaluate(
     found: dict[str, list[Scores]] = {name: [] for name in methods}
     numbers = chosen_pairs(humans(), PAIRS, 0)
     parts = {i: sample(humans(), i, variant) for pair in numbers for i in pair}
-    shapes = {i: _prepared(part, folder / "test") for i, part in parts.items()}
+    shapes = {i: prepared_sample(part, folder / "test") for i, part in parts.items()}
     described = {(name, i): describe(shapes[i], parts[i]) for name, describe in methods.items() for i in parts}
     for i, j in numbers:
         distances = PairDistances(parts[j].shape)
@@ -151,7 +151,8 @@ def shipped(name: str) -> Describe:
     return lambda shape, _: model.embed_inputs(shape.values, shape.mass)
 
 
-def _prepared(part: Sample, folder: Path) -> PreparedShape:
+def prepared_sample(part: Sample, folder: Path) -> PreparedShape:
+    """Inputs of a test sample, computed once."""
     item = TrainingShape(part.shape, np.arange(part.shape.vertex_count))
     return prepare([item], RECIPE, folder, workers=1)[0]
 
