@@ -205,7 +205,10 @@ class JobsController:
             self._hear(id, events, is_news=is_news)
 
         def ended(status: int | None, words: str) -> None:
-            self._ended(id, status, words)
+            try:
+                self._ended(id, status, words)
+            finally:  # whatever becomes of one job, the others have their turn
+                self._start_next()
 
         return said, ended
 
@@ -228,7 +231,7 @@ class JobsController:
     def _ended(self, id: str, status: int | None, words: str) -> None:
         running, job = self._running.pop(id), replace(self._jobs[id], seconds_left=None)
         complaint = words.removeprefix(_COMPLAINT)
-        if job.result and not status:
+        if status == 0 or (status is None and job.result):
             self._put(replace(job, state="done", message=""))
         elif running.wanted is not None:
             self._put(replace(job, state=running.wanted, message=_END_WORDS[running.wanted]))
@@ -236,7 +239,6 @@ class JobsController:
             self._fail(job, complaint or f"It ended with status {status} and said nothing.")
         else:
             self._put(replace(job, state="interrupted", message=_interruption(job)))
-        self._start_next()
 
     def _fail(self, job: Job, reason: str) -> None:
         self._put(replace(job, state="failed", message=reason))

@@ -51,7 +51,7 @@ class CommandProcess:
         self._said, self._ended = said, ended
         self._tails = [Tail(folder / OUTPUT), Tail(folder / LOG)]
         self._own: subprocess.Popen[bytes] | None = None
-        self._last_words = ""
+        self._last_words, self._is_over = "", False
         self._since_asked = QElapsedTimer()
 
     @property
@@ -112,6 +112,8 @@ class CommandProcess:
 
     def look(self) -> bool:
         """Pass on what is new; False once the process has ended and everything is said."""
+        if self._is_over:
+            return False
         is_alive = self.is_alive  # asked first: whatever it wrote before its end is then there to be read
         if is_alive and self._since_asked.isValid() and self._since_asked.elapsed() > GRACE:
             self.kill()
@@ -123,6 +125,7 @@ class CommandProcess:
             self._said(events, is_news)
         if is_alive or any(tail.has_more for tail in self._tails):
             return True
+        self._is_over = True  # first: it is said once, even if whoever listens stumbles
         self._ended(None if self._own is None else self._own.returncode, self._last_words)
         return False
 

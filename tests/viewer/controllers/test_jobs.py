@@ -6,6 +6,7 @@ import json
 from dataclasses import dataclass, field
 
 import pytest
+from psygnal import EmitLoopError
 
 from add_viewer.controllers.job_folders import Stamp
 from add_viewer.controllers.jobs import JobsController
@@ -162,6 +163,18 @@ def test_a_job_that_is_done_before_it_could_be_stopped_is_done(world):
     world.say(id, {"event": "done", "model": "m"})
     world.process(id).ended(0, "")
     assert world.jobs[id].state == "done"
+
+
+def test_a_listener_that_stumbles_does_not_keep_the_others_waiting(world):
+    def stumble(_id):
+        raise ValueError("stumbled")
+
+    first, second = world.start(), world.start()
+    world.jobs.finished.connect(stumble)
+    world.say(first, {"event": "done"})
+    with pytest.raises(EmitLoopError):
+        world.process(first).ended(0, "")
+    assert [world.jobs[id].state for id in (first, second)] == ["done", "running"]
 
 
 def test_a_waiting_job_is_cancelled_without_ever_starting(world):
