@@ -79,6 +79,16 @@ def facing(person, name):
     return int(np.argmax(np.where(shape.vertex_normals @ eye > 0.8, sideways, -np.inf)))
 
 
+def click(person, qtbot, name, vertex, modifier=NONE):
+    """Click a vertex, once the views stand where they will stay."""
+    canvas = canvas_of(person, name)
+    before = None
+    while (place := (canvas.size(), canvas.place_of(vertex).toPoint())) != before:
+        before = place
+        qtbot.wait(200)  # views are laid out when events are handled
+    qtbot.mouseClick(canvas, LEFT, modifier, canvas.place_of(vertex).toPoint())
+
+
 def field(person, name, panel=0):
     return person.results.fields.get((panel, key_of(person, name)))
 
@@ -147,8 +157,7 @@ def test_a_click_on_one_shape_shows_distances_on_all_in_two_descriptors(eggs, qt
     choose(eggs, qtbot, "distance hks")
     choose(eggs, qtbot, "distance wks", second=True)
     vertex = facing(eggs, "egg")
-    canvas = canvas_of(eggs, "egg")
-    qtbot.mouseClick(canvas, LEFT, NONE, canvas.place_of(vertex).toPoint())
+    click(eggs, qtbot, "egg", vertex)
     assert eggs.session.state.picks[0].vertex == vertex
     assert "Computing" in field(eggs, "egg").message
     views = [(name, panel) for name in ("egg", "bent") for panel in (0, 1)]
@@ -209,11 +218,11 @@ def test_the_symmetry_explorer_finds_the_mirror_map_and_shows_what_hks_mistakes(
 
 def pick_a_pair(person, qtbot):
     """A point and, by hand, its partner on the other side."""
-    canvas, vertex = canvas_of(person, "egg"), facing(person, "egg")
-    qtbot.mouseClick(canvas, LEFT, NONE, canvas.place_of(vertex).toPoint())
+    vertex = facing(person, "egg")
+    click(person, qtbot, "egg", vertex)
     places = person.session.state.active.shape.vertices
     partner = int(np.argmin(np.linalg.norm(places - places[vertex] * [-1, 1, 1], axis=1)))
-    qtbot.mouseClick(canvas, LEFT, ALT, canvas.place_of(partner).toPoint())
+    click(person, qtbot, "egg", partner, ALT)
     return vertex, partner
 
 
