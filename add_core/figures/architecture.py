@@ -15,11 +15,13 @@ from ..descriptors import wave_kernel_energies, wave_kernel_signature
 from ..drawing.colour_maps import sequential_map, signed_map
 from ..drawing.colours import MARKERS, theta_colour
 from ..evaluation.baselines import isotropic
+from ..evaluation.samples import sample
 from ..geometry import TriangleMesh
 from ..spectra import SpectralFamily
 from .drawn import Drawn
 from .methods import method
 from .page import QUIET, RULE, blank, panel
+from .stage import Stage
 from .studio import Studio
 
 ROWS, FILTERS = 3, 3
@@ -99,8 +101,6 @@ def _trained(mesh: TriangleMesh, name: str, vertex: int) -> _Network:
 
 def _band_pass(studio: Studio, mesh: TriangleMesh) -> _Network:
     """Without a trained network: the band-pass filters of WKS, which an ASF layer can be set to."""
-    from ..evaluation.samples import sample
-
     family = studio.describer.spectra(sample(studio.cast.collection, studio.cast.hero))
     channels = _three(np.flatnonzero(family.alphas > 0))
     chosen = wave_kernel_energies(isotropic(family), FILTERS + 2)
@@ -142,7 +142,7 @@ def _inputs(studio: Studio, figure: Figure, whole: Axes, mesh: TriangleMesh, net
     whole.text(1.1, 4.28, r"$\phi_{\alpha\theta k}$", ha="center", fontsize=13)
 
 
-def _column(studio: Studio, figure: Figure, left: float, mesh: TriangleMesh):  # type: ignore[no-untyped-def]
+def _column(studio: Studio, figure: Figure, left: float, mesh: TriangleMesh) -> Stage:
     """A stage as high as the figure, for bodies one above the other."""
     camera = studio.camera(16, 5)
     tall = np.ptp(camera.seen(mesh.vertices)[:, 1])

@@ -14,7 +14,8 @@ class Cast:
     hero : stands for the kernels. second : the hero's shape in another pose. source : where heat is dropped.
     points : three for signatures, each with a word for it. reference_point : for distance maps.
     audience : shapes whose distance maps are drawn, with the variant of each. reference, targets : of colour transfer.
-    contests : collections whose test shapes are matched; learned : trained models, by name, that know such shapes.
+    contests : collections whose test shapes are matched; learned : trained descriptors, by name, that know such
+    shapes; naming : correspondence networks that do.
     """
 
     collection: Collection
@@ -28,6 +29,7 @@ class Cast:
     targets: tuple[int, ...]
     contests: tuple[Collection, ...] = field(default=())
     learned: tuple[str, ...] = ()
+    naming: tuple[str, ...] = ()
 
 
 def people() -> Cast:
@@ -44,4 +46,5 @@ def people() -> Cast:
         targets=(87, 84, 89, 92, 96),
         contests=(humans(), poses()),
         learned=("humans-madd3",),
+        naming=("humans-madd4",),
     )

@@ -40,7 +40,8 @@ def draw_clouds(studio: Studio) -> Drawn:
 def _draw(studio: Studio, variant: str) -> Drawn:
     cast = studio.cast
     asked = [MAPS, *_forest(studio, variant), f"ahks{REFINED}"]
-    names, missing = obtainable([*asked, *(name + end for name in cast.learned for end in ("", REFINED))])
+    trained = [name + end for name in (*cast.learned, *cast.naming) for end in ("", REFINED)]
+    names, missing = obtainable([*asked, *trained])
     carrier = names[-1]
     studio.expect(matching.steps(studio, cast.collection, names) + len(cast.targets))
     scores = matching.scores(studio, cast.collection, names, variant=variant)

@@ -15,7 +15,7 @@ from .methods import method
 from .studio import Studio
 
 ARCHITECTURES = ("ADD1", "ADD2", "ADD3", "mADD1", "mADD2", "mADD3")
-RIVALS = ("OSD", "WFT, learned", "isotropic network")
+RIVALS = ("OSD", "learned WFT", "isotropic network")
 """The paper's learned rivals, and the network that has everything but direction."""
 SHAPES, ANGLES, SPLINES, VALIDATE_EVERY = 16, 8, 64, 250
 """Of a training on request: bodies, directions, splines, and steps between validations, the fewest that are taken."""

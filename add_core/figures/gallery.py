@@ -86,7 +86,7 @@ FIGURES: tuple[PaperFigure, ...] = (
     ),
     PaperFigure(
         8,
-        "architectures",
+        "network_curves",
         "CMC, ROC and Princeton curves of the networks of the family",
         f"{_OURS} Losses, optimisers and training times are not the paper's: see the model card or --train.",
         can_train=True,

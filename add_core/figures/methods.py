@@ -30,7 +30,7 @@ METHODS: dict[str, Method] = {
     "wks": Method("WKS", "#0072b2"),
     "wft": Method("WFT", "#56b4e9"),
     "osd": Method("OSD", "#009e73"),
-    "learned-wft": Method("WFT, learned", "#44aa99"),
+    "learned-wft": Method("learned WFT", "#44aa99"),
     "isotropic": Method("isotropic network", "#b07aa1"),
     "ahks": Method("AHKS", "#e69f00", is_ours=True),
     "add1": Method("ADD1", "#f2b37c", is_ours=True),
@@ -40,8 +40,8 @@ METHODS: dict[str, Method] = {
     "madd2": Method("mADD2", "#c2619b", is_ours=True),
     "madd3": Method("mADD3", "#8f1d5f", is_ours=True),
     "madd4": Method("mADD4", "#5b1a8a", is_ours=True),
-    MAPS: Method("functional maps", "#0072b2"),
-    FOREST: Method("random forest", "#009e73"),
+    MAPS: Method("functional maps", "#5f6bb5"),
+    FOREST: Method("random forest", "#7d8f2e"),
 }
 
 

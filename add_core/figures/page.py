@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
@@ -109,8 +108,3 @@ def degrees_of_theta(axes: Axes, *, label: str = "direction θ") -> None:
     axes.set_xlim(0, 180)
     axes.set_xticks([0, 45, 90, 135, 180], ["0°", "45°", "90°", "135°", "180°"])
     axes.set_xlabel(label)
-
-
-def sentence(parts: Iterable[str]) -> str:
-    """Parts that are not empty, as one paragraph."""
-    return " ".join(part.strip() for part in parts if part.strip())

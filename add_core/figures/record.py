@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Iterator
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
@@ -39,7 +40,7 @@ class Record:
         self._folder = folder
         self._entries: dict[int, Entry] = {entry.number: entry for entry in _read(folder / FILE)}
 
-    def __iter__(self):  # type: ignore[no-untyped-def]
+    def __iter__(self) -> Iterator[Entry]:
         return iter(sorted(self._entries.values(), key=lambda entry: entry.number))
 
     def finished(self, number: int, *, quality: str, image: str, training: float = 0.0) -> Entry | None:

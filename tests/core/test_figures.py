@@ -12,7 +12,7 @@ from add_core.cli import main
 from add_core.contest import describing
 from add_core.evaluation import Scores, save_report
 from add_core.evaluation.scores import Curve
-from add_core.figures import FIGURES, QUALITIES, Quality, architectures, compared, methods, reproduce, reproduction
+from add_core.figures import FIGURES, QUALITIES, Quality, compared, methods, network_curves, reproduce, reproduction
 from add_core.figures.cast import Cast, people
 from add_core.geometry import TriangleMesh
 from add_core.geometry.shapes import ellipsoid
@@ -122,7 +122,7 @@ def test_what_cannot_be_drawn_here_is_said_and_the_rest_is_drawn(tmp_path, capsy
 
 def test_networks_are_trained_on_request_once_for_the_same_time(tmp_path, monkeypatch):
     monkeypatch.setattr(compared, "ARCHITECTURES", ("ADD1",))
-    monkeypatch.setattr(architectures, "ARCHITECTURES", ("ADD1",))
+    monkeypatch.setattr(network_curves, "ARCHITECTURES", ("ADD1",))
     monkeypatch.setattr(compared, "SPLINES", 8)
     monkeypatch.setattr(compared, "VALIDATE_EVERY", 10)
     first, again, longer = (
