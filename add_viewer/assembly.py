@@ -26,6 +26,7 @@ from .controllers.keeping import KeepingController, Outside, Process
 from .controllers.kernel import KernelController
 from .controllers.opening import OpeningController, Read, read_shape
 from .controllers.operators import OperatorStore
+from .controllers.rereading import Rereading
 from .controllers.running import explain
 from .controllers.script_fields import WRITERS
 from .controllers.scripting import script_of
@@ -101,8 +102,9 @@ class Assembly:
         if screenshot is not None and store is None:  # a picture must not depend on what somebody set up earlier
             store = QSettings(os.devnull, QSettings.Format.IniFormat)
         self.window = MainWindow(self.session, self.results, self.display, Settings(store), _galleries())
-        self._control(read)
-        self._keep(read, session)
+        reread = Rereading(read or read_shape)
+        self._control(reread)
+        self._keep(reread, session)
         self._run_jobs(restore=screenshot is None)
         self._explore()
         if theme is not None:
@@ -110,7 +112,7 @@ class Assembly:
         if size is not None:
             self.window.resize(*size)
 
-    def _control(self, read: Read | None) -> None:
+    def _control(self, read: Read) -> None:
         run, operators = self.worker.submit, OperatorStore()
         self.operators = operators
         self.opening = OpeningController(self.session, self.results, run, read)
@@ -126,12 +128,12 @@ class Assembly:
         self.animations = AnimationExport(self.window, self.saving, self.recorder, run)
         self.saving.write_script = lambda: script_of(self.session.state, self.results.carried, WRITERS)
 
-    def _keep(self, read: Read | None, session: Path | None) -> None:
+    def _keep(self, read: Read, session: Path | None) -> None:
         self._session_path = session
         identity = ProcessIdentity.of(os.getpid())
         process = Process(identity.pid, identity.began, lambda pid, began: ProcessIdentity(pid, began).is_alive)
         run, later = self.worker.submit, Delay(KEEPING_PAUSE)
-        self.keeping = KeepingController(self.session, self.results, run, later, process, read=read or read_shape)
+        self.keeping = KeepingController(self.session, self.results, run, later, process, read=read)
         self.keeping.opened = lambda path: self.window.remember(str(path))
         self.keeping.failed = lambda reason: self._failures.append(reason)
         self.session_files = SessionFiles(self.window, self.keeping, explain)
