@@ -95,8 +95,8 @@ def command(
     """A signature of every vertex of SHAPE, as a field of the shape in the file written.
 
     MODEL is a file or a folder of `add-core train`, or the name of a shipped one such as humans-madd3; it knows all
-    options itself. Of a correspondence network the field is the reference's vertex that each vertex most probably is,
-    and how probable that is.
+    options itself. A correspondence network gives the reference's vertex that each vertex most probably is, how
+    probable that is, and where it lies.
     hks, si-hks, wks and wft are isotropic: they cannot tell left from right. ahks and geometry-vectors have `numbers`
     values for each α and angle, angle after angle. --compared adds α = 0 to them and has numbers of its own, those of
     `add-core match` and `evaluate`.
@@ -143,13 +143,15 @@ def _learned(names: tuple[str, ...], output: Path, *, as_json: bool) -> None:
         if model.network.is_classifier:
             found = model.match(shape, progress=advance)
             fields = {"reference_vertex": found.vertices, "probability": found.probabilities}
+            if model.reference is not None:
+                fields = {"learned": model.reference.vertices[found.vertices], **fields}
         else:
             fields = {"learned": model.describe(shape, progress=advance)}
     save_shape(shape, output, fields=fields)
     facts = {
         "descriptor": names[0],
         "vertices": shape.vertex_count,
-        "numbers": sum(values[0].size for values in fields.values()),
+        "numbers": fields["learned"].shape[1] if "learned" in fields else 1,
         "unit of length": options.length_unit(False),
         "output": str(output),
     }

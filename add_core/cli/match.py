@@ -193,7 +193,7 @@ def _described(
         from ..learning import load_model
 
         model = load_model(descriptor)
-        one, two = (np.asarray(model.describe(shape), dtype=np.float64) for shape in shapes)
+        one, two = (np.asarray(model.embed(shape), dtype=np.float64) for shape in shapes)
     return one, two
 
 

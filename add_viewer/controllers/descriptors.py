@@ -64,7 +64,7 @@ class DescriptorQuestion:
     def read(self, output: Path, said: Mapping[str, Any]) -> FloatArray:
         """(n, d). Raises ShapeFileError if there is no row for each vertex."""
         fields = load_fields(output)
-        (values,) = fields.values()
+        values = fields["learned"] if "learned" in fields else next(iter(fields.values()))
         rows = np.ascontiguousarray(values if values.ndim == 2 else values[:, None], dtype=np.float32)
         if len(rows) != self.shape.vertex_count:
             raise ShapeFileError(

@@ -246,7 +246,7 @@ def _descriptor(script: Script, name: str) -> None:
         script.use("add_core.learning", "load_model")
         script.say(
             f"model = load_model({name!r})",
-            "descriptors = {name: np.asarray(model.describe(shape)) for name, shape in shapes.items()}",
+            "descriptors = {name: np.asarray(model.embed(shape)) for name, shape in shapes.items()}",
         )
         return
     alphas = "(0.0, 50.0)" if name in _DIRECTED else "(0.0,)"
@@ -296,7 +296,7 @@ def _found_matches(script: Script) -> None:
         script.use("add_core.learning", "load_model")
         script.use("add_core.correspondence", "nearest_matches")
         script.say(f"model = load_model({matching.descriptor!r})")
-        pair = "nearest_matches(model.describe(shapes[name]), model.describe(shapes[source]))"
+        pair = "nearest_matches(model.embed(shapes[name]), model.embed(shapes[source]))"
     script.say(f"matches = {{name: {pair} for name, family in families.items() if name != source}}")
     if matching.refined:
         _refined(script, size)
@@ -310,7 +310,7 @@ def _guides(descriptor: str) -> str:
     if descriptor in _DIRECTED:
         each = (f"describe_with({descriptor!r}, families[{key}])" for key in ("source", "name"))
     else:
-        each = (f"model.describe(shapes[{key}])" for key in ("source", "name"))
+        each = (f"model.embed(shapes[{key}])" for key in ("source", "name"))
     return f"guides=({', '.join(each)}), "
 
 

@@ -59,6 +59,7 @@ def test_a_correspondence_network_describes_a_shape_by_its_reference(capsys, fol
     fields = load_fields(described)
     assert fields["reference_vertex"].shape == fields["probability"].shape == (162,)
     assert fields["reference_vertex"].max() < 162
+    assert fields["learned"].shape == (162, 3)
 
 
 def test_a_training_is_evaluated_by_its_folder(capsys, folder, tmp_path, monkeypatch):
