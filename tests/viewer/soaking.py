@@ -18,6 +18,7 @@ from PySide6.QtTest import QTest
 
 from add_core.geometry import shapes
 from add_core.io import save_shape
+from add_viewer.controllers.carrying import true_match
 from add_viewer.models.field_catalogue import catalogue
 from add_viewer.models.session_file import KeptSession
 from add_viewer.tasks.memory import give_back
@@ -130,7 +131,7 @@ class Soaker:
     def memory(self) -> float:
         """Megabytes that this process holds with no shape open, undo kept: a leak shows, whatever was open before.
 
-        Caches have limits of their own (800 MB of answers, so many factorisations); they are emptied before.
+        Caches have limits of their own (800 MB of answers, so many factorisations, graphs and maps); they are emptied.
         """
         for shape in self.session.state.shapes:
             self.session.close_shape(shape.key)
@@ -139,6 +140,8 @@ class Soaker:
         for cache in (operators._bases, operators._operators, operators._flows):
             cache._kept.clear()
         self.assembly.exploration.answers._known.clear()
+        self.assembly.exploration.best._graphs.clear()
+        true_match.cache_clear()
         gc.collect()
         give_back()
         pages = int(Path("/proc/self/statm").read_text(encoding="ascii").split()[1])
