@@ -31,7 +31,7 @@ METHODS = (
     "humans-madd4",
     "humans-madd4+zoomout",
 )
-PAIRS, QUERIES, COUNT = 4, 1000, 200
+PAIRS, QUERIES, COUNT = 4, 500, 200
 
 
 class PreparedDescriber(Describer):

@@ -44,7 +44,7 @@ ISOTROPIC = ("ADD1", "ADD3", "mADD1", "mADD3")
 """Networks whose isotropic twins are trained too; that of mADD3 is the isotropic network of the figures."""
 SIGNATURES = ("hks", "wks")
 VARIANTS = ("mesh", "remeshed", "cloud")
-PAIRS, QUERIES = 6, 1000
+PAIRS, QUERIES = 3, 500
 
 Describe = Callable[[PreparedShape, Sample], np.ndarray]
 
@@ -200,7 +200,7 @@ def main() -> None:
         note = f"{SETTINGS.steps} mini-batches of {SETTINGS.pairs} pairs from {len(BODIES)} bodies for each network."
         save_report(
             scores,
-            given.report / f"learned_{variant}",
+            given.report / ("learned" if variant == "mesh" else f"learned_{variant}"),
             title=f"16 numbers, test people, {variant}",
             command="python assets/scripts/compare_networks.py -o FOLDER",
             notes=[f"{PAIRS} pairs, {QUERIES} queries each.", note],
