@@ -10,6 +10,7 @@ from torch import Tensor
 
 from .._check import IntArray
 from .architectures import Network
+from .inputs import InputRecipe
 from .losses import multinomial_loss, siamese_loss, soft_nearest_loss, squared_distances
 from .pairs import Batch
 from .settings import TrainingSettings
@@ -81,3 +82,9 @@ def negative_pairs(places: Tensor, distances: Tensor, *, hard: bool) -> tuple[Te
     row, column = rows.repeat(len(columns)), torch.cat(columns)
     usable = places[row] != places[column]
     return row[usable], column[usable]
+
+
+def mirror_channels(recipe: InputRecipe, symmetry: IntArray | None) -> IntArray | None:
+    """(C,): the channels of a shape in a mirror; None where no symmetry is known, or the mirror changes nothing."""
+    blind = recipe.isotropic or np.array_equal(recipe.mirror_channels, np.arange(recipe.channels))
+    return None if symmetry is None or blind else recipe.mirror_channels

@@ -21,7 +21,7 @@ from .averaging import AveragedWeights
 from .checkpoints import Checkpoint
 from .inputs import InputRecipe, Moments
 from .model import RUN_MODEL, Model
-from .objective import Objective
+from .objective import Objective, mirror_channels
 from .pairs import PairSampler
 from .settings import TrainingSettings, learning_rate
 from .training_set import PreparedShape
@@ -71,7 +71,7 @@ def fit(
     run = _Run(
         network,
         chosen,
-        objective=Objective(chosen, _mirror_channels(recipe, symmetry)),
+        objective=Objective(chosen, mirror_channels(recipe, symmetry)),
         sampler=_sampler(shapes, recipe, chosen, symmetry, moments),
         validator=Validator(validation, symmetry=symmetry, moments=moments) if validation else None,
         model=lambda trained, facts: Model(
@@ -203,12 +203,6 @@ class _Run:
         weights = {"network": self.network.state_dict(), "average": self.average.network.state_dict()}
         saved = replace(self.state, optimizer=self.optimizer.state_dict(), **weights)
         saved.save(self.folder / CHECKPOINT)
-
-
-def _mirror_channels(recipe: InputRecipe, symmetry: IntArray | None) -> IntArray | None:
-    """None where a mirror image would look like the shape itself: without any direction."""
-    blind = recipe.isotropic or np.array_equal(recipe.mirror_channels, np.arange(recipe.channels))
-    return None if symmetry is None or blind else recipe.mirror_channels
 
 
 def _sampler(

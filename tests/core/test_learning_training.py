@@ -19,7 +19,7 @@ from add_core.learning import InputRecipe, LearningTask, TrainingSettings, Train
 from add_core.learning.architectures import Architecture, build, take_over
 from add_core.learning.averaging import AveragedWeights
 from add_core.learning.inputs import Moments
-from add_core.learning.objective import Objective, negative_pairs
+from add_core.learning.objective import Objective, mirror_channels, negative_pairs
 from add_core.learning.pairs import Batch, PairSampler
 from add_core.learning.settings import learning_rate
 from add_core.learning.training import CHECKPOINT, MODEL, fit
@@ -141,6 +141,22 @@ def test_a_point_in_the_mirror_is_wrong_unless_it_is_its_own_image():
     forth = np.log(np.exp(-squares).sum(1) + np.exp(-wrong).sum(1)).mean()
     plain = np.log(np.exp(-squares).sum(1)).mean()
     assert_allclose([there, back], [0.5 * (forth + plain), plain], rtol=1e-5)
+
+
+@pytest.mark.parametrize(
+    ("recipe", "sees_sides"),
+    [
+        (InputRecipe(angles=4), True),
+        (InputRecipe(angles=4, isotropic=True), False),
+        (InputRecipe(alphas=(0.0,), angles=4), False),
+        (InputRecipe(alphas=(50.0,), angles=2), False),  # 0 and 90 degrees are their own mirror images
+    ],
+)
+def test_only_inputs_with_sides_are_looked_at_in_a_mirror(recipe, sees_sides):
+    """Where the mirror changes nothing, a point would be told from itself."""
+    found = mirror_channels(recipe, np.arange(4))
+    assert (found is not None) == sees_sides
+    assert mirror_channels(recipe, None) is None
 
 
 def test_the_inputs_of_a_shape_are_computed_once(tmp_path):
