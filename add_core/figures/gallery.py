@@ -80,9 +80,9 @@ FIGURES: tuple[PaperFigure, ...] = (
         7,
         "quality_curves",
         "CMC, ROC and Princeton curves of descriptors on two collections",
-        f"{_OURS} Ten people in place of FAUST and one person in many poses in place of SCAPE; networks are trained on "
-        "the people only. ShapeNet (a geodesic CNN) is not among the rivals, and the false positive rate is "
-        "logarithmic.",
+        f"{_OURS} Ten people in place of FAUST and one person in many poses in place of SCAPE, with one network "
+        "trained on both where the paper trains one for each. ShapeNet (a geodesic CNN) is not among the rivals, and "
+        "the false positive rate is logarithmic.",
     ),
     PaperFigure(
         8,
