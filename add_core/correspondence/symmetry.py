@@ -31,6 +31,9 @@ MOST_KEPT = 0.3
 """Share of the area that a mirror may lay down the wrong way round, by rounding to vertices."""
 KEPT_COST = 0.05
 """Distortion that turning everything the wrong way round must save: an arm twisted into the other is cheap."""
+MOST_UNLIKE = 1.1
+"""Mean squared difference of f_θ ∘ η and f_{−θ}, ÷ that of f_θ and f_{−θ} themselves: up to 0.92 on people, 1.25 or
+more on blobs and bodies with a stump, whose best maps may distort no more than a pose does."""
 STILL, MOST_UNMOVED = 0.03, 0.35
 """Points that move by less, ÷ diameter, count as unmoved: on people a tenth of them; and the most there may be."""
 
@@ -47,6 +50,8 @@ class IntrinsicSymmetry:
     worst : the same for the distances of the one sampled point that fares worst (at most 0.08 if found).
     preserved : share of the area whose orientation η keeps instead of reversing (at most 0.3 if found).
     unmoved : share of points that move by less than 0.03 of the diameter (at most 0.35 if found).
+    unlike : how far f_θ ∘ η = f_{−θ} is missed: mean squared difference of both sides, ÷ that of f_θ and f_{−θ} at the
+        same point (at most 1.1 if found: a mirror makes points more alike than they are to themselves).
     reason : why nothing was found, in a sentence; "" if something was.
     """
 
@@ -58,6 +63,7 @@ class IntrinsicSymmetry:
     worst: float
     preserved: float
     unmoved: float
+    unlike: float
     reason: str
 
     @property
@@ -105,9 +111,20 @@ def intrinsic_symmetry(
     start = int(np.argmax(unit.is_referenced)) if isinstance(unit, TriangleMesh) else 0
     rows = farthest_points(unit, min(SAMPLES, allowed), start)
     search = _Search(spectrum, distances, rows)
-    best = min(search.candidates(*mirrored_descriptors(family)), key=search.badness)
+    ahead, back = mirrored_descriptors(family)
+    best = min(search.candidates(ahead, back), key=search.badness)
     final = grown_involution(spectrum, best, search.fine_rows, min(size, len(spectrum.eigenvalues)))
-    return search.judged(search.points(final))
+    eta = search.points(final)
+    seen = search.fine_rows
+    # A point that is its own mirror image nearly everywhere, as on a ball, is no measure: a quarter of what points
+    # drawn at random differ by (2, each number having variance 1) is.
+    themselves = max(_difference(ahead, back, seen, seen), 0.5)
+    return search.judged(eta, _difference(ahead, back, seen, eta[seen]) / themselves)
+
+
+def _difference(ahead: FloatArray, back: FloatArray, rows: IntArray, images: IntArray) -> float:
+    """Mean squared difference of `ahead` at `rows` and `back` at `images`, both (r,)."""
+    return float(((ahead[rows] - back[images]) ** 2).mean())
 
 
 def mirrored_descriptors(family: SpectralFamily) -> tuple[FloatArray, FloatArray]:
@@ -171,7 +188,7 @@ class _Search:
         kept = orientation_kept(self._distances.shape, laid, np.ones(len(laid)))
         return self._unmoved(images) > MOST_UNMOVED, float(self._changes(images).mean()) + KEPT_COST * kept
 
-    def judged(self, eta: IntArray) -> IntrinsicSymmetry:
+    def judged(self, eta: IntArray, unlike: float) -> IntrinsicSymmetry:
         images = eta[self._rows]
         changes, unmoved = self._changes(images), self._unmoved(images)
         distortion, worst = float(changes.mean()), float(changes.max())
@@ -183,12 +200,16 @@ class _Search:
             reason = f"The best map changes distances by {distortion:.3f} of the diameter, at one point by {worst:.3f}."
         elif preserved > MOST_KEPT:
             reason = f"The best map keeps the orientation of {preserved:.0%} of the area, so it is no mirror."
+        elif unlike > MOST_UNLIKE:
+            reason = (
+                f"The best map leads to points that look {unlike:.2f} times as unlike as each point and its mirror."
+            )
         nearest_limit = max(distortion / MOST_DISTORTION, worst / MOST_WORST, preserved / MOST_KEPT)
         confidence = 0.0 if reason else float(max(1.0 - nearest_limit**2, 1e-3))
         back = self._distances(eta[eta], np.arange(len(eta)))
         field = read_only(np.clip(1.0 - back / 0.1, 0.0, 1.0))
         return IntrinsicSymmetry(
-            not reason, read_only(eta), confidence, field, distortion, worst, preserved, unmoved, reason
+            not reason, read_only(eta), confidence, field, distortion, worst, preserved, unmoved, unlike, reason
         )
 
     def _unmoved(self, images: IntArray) -> float:

@@ -11,6 +11,9 @@ from .normals import reflected_cosines
 
 DETOUR = 10.0
 """An edge whose ends are this many times as far apart along the surface as across the edge bridges a gap."""
+FACING, FACING_DETOUR = 0.4, 2.0
+"""Sine between an edge and the tangent planes of both its ends above which they face each other across a gap, if the
+edge runs outside of the surface: the walls of an armpit. Of such ends, those count as far apart along the surface."""
 SURE_COST = 1.0
 """Cost of an edge, in distances between neighbours, that needs no test."""
 SURE_BEND = 1.1
@@ -27,8 +30,9 @@ def bridging_triangles(
     """(t,): which fan triangles join parts of the surface that are near in space but far apart along it.
 
     The edges of the `sure` triangles are taken first, and those that cost no more than `SURE_COST` times the
-    spacing of the points. The others follow in `ROUNDS`, those first that are short and lie well between their
-    normals: an edge is refused if its ends are joined already, but only by a detour of `DETOUR` times its length.
+    spacing of the points, unless they face each other. The others follow in `ROUNDS`, those first that are short
+    and lie well between their normals: an edge is refused if its ends are joined already, but only by a detour of
+    `DETOUR` times its length, or of `FACING_DETOUR` times if they face each other.
     So a finger is tied to its hand before it can be tied to what it points at. Triangles with a refused edge
     bridge, except the cheapest of those without which a part would come loose.
 
@@ -39,25 +43,30 @@ def bridging_triangles(
     keys, edge = np.unique(sides[:, 0] * count + sides[:, 1], return_inverse=True)
     edge = edge.reshape(-1, 3)
     ends = np.stack([keys // count, keys % count], axis=1)
-    length, cost = _lengths_and_costs(ends, points, normals)
+    length, cost, facing = _lengths_and_costs(ends, points, normals)
+    reach = np.where(facing, FACING_DETOUR, DETOUR) * length
     straight = _held_by_both(ends, stars, count) & (cost <= SURE_BEND * length)
-    taken = straight | (cost <= SURE_COST * spacing[ends].max(axis=1))
+    taken = straight | ((cost <= SURE_COST * spacing[ends].max(axis=1)) & ~facing)
     taken[edge[sure]] = True
-    taken = _grown(taken, ends, length, cost, count)
+    order = np.lexsort((cost, facing))
+    taken = _grown(taken, ends, length, reach, order[~taken[order]])
     kept = _rejoined(np.asarray(taken[edge].all(axis=1)), stars, cost[edge].max(axis=1, initial=0.0), count)
     if np.count_nonzero(kept) < (1 - MOST_BRIDGES) * len(kept):
         return np.zeros(len(kept), dtype=bool)  # points too few to tell near from far: every way is a detour
     return np.asarray(~kept)
 
 
-def _lengths_and_costs(ends: IntArray, points: FloatArray, normals: FloatArray) -> tuple[FloatArray, FloatArray]:
+def _lengths_and_costs(
+    ends: IntArray, points: FloatArray, normals: FloatArray
+) -> tuple[FloatArray, FloatArray, BoolArray]:
     chord = points[ends[:, 1]] - points[ends[:, 0]]
     length = np.linalg.norm(chord, axis=1)
     chord /= length[:, None]
     here, there = normals[ends[:, 0]], normals[ends[:, 1]]
     heights = np.einsum("ei,ei->e", chord, here), np.einsum("ei,ei->e", chord, there)
     steepness = np.maximum(heights[0] ** 2, heights[1] ** 2)
-    return length, length * (2 - reflected_cosines(chord, here, there) + steepness)
+    facing = np.minimum(heights[0], -heights[1]) > FACING
+    return length, length * (2 - reflected_cosines(chord, here, there) + steepness), facing
 
 
 def _held_by_both(ends: IntArray, stars: IntArray, count: int) -> BoolArray:
@@ -67,28 +76,29 @@ def _held_by_both(ends: IntArray, stars: IntArray, count: int) -> BoolArray:
     return np.asarray(np.isin(there, reached) & np.isin(back, reached))
 
 
-def _grown(taken: BoolArray, ends: IntArray, length: FloatArray, cost: FloatArray, count: int) -> BoolArray:
-    """(e,): `taken` and the edges that go with it."""
+def _grown(taken: BoolArray, ends: IntArray, length: FloatArray, reach: FloatArray, doubtful: IntArray) -> BoolArray:
+    """(e,): `taken` and those of the `doubtful` edges that go with it, asked in their order."""
     taken = taken.copy()
-    doubtful = np.flatnonzero(~taken)
     pending = np.empty(0, dtype=np.int64)
-    for part in np.array_split(doubtful[np.argsort(cost[doubtful], kind="stable")], ROUNDS):
-        pending = _admit(np.concatenate([pending, part]), taken, ends, length, count)
+    for part in np.array_split(doubtful, ROUNDS):
+        pending = _admit(np.concatenate([pending, part]), taken, ends, length, reach)
     while len(pending):
-        pending = _admit(pending, taken, ends, length, count)
+        pending = _admit(pending, taken, ends, length, reach)
     return taken
 
 
-def _admit(pending: IntArray, taken: BoolArray, ends: IntArray, length: FloatArray, count: int) -> IntArray:
+def _admit(pending: IntArray, taken: BoolArray, ends: IntArray, length: FloatArray, reach: FloatArray) -> IntArray:
     """Take or refuse the `pending` edges, cheapest first, and return those that still await what joins their ends.
 
     Between separate pieces only the cheapest edge of each piece is taken at once.
     """
+    if not len(pending):
+        return pending
+    count = int(ends.max()) + 1
     graph = csr_array(coo_array((length[taken], (ends[taken, 0], ends[taken, 1])), shape=(count, count)))
     piece = connected_components(graph, directed=False)[1][ends[pending]]
     joined = pending[piece[:, 0] == piece[:, 1]]
-    near = _detours(graph, ends[joined], DETOUR * length[joined]) <= DETOUR * length[joined]
-    taken[joined[near]] = True
+    taken[joined[_detours(graph, ends[joined], reach[joined]) <= reach[joined]]] = True
     apart = piece[:, 0] != piece[:, 1]
     chosen = np.unique(np.unique(piece[apart], return_index=True)[1] // 2)
     waiting = pending[apart]

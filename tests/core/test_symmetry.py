@@ -45,6 +45,7 @@ def test_the_mirror_image_of_every_point_is_found():
     assert 0 < found.confidence <= 1
     assert found.field.mean() > 0.9
     assert found.unmoved < 0.3
+    assert found.unlike < 0.1
 
 
 def test_the_mirror_image_of_a_person_in_a_pose_is_found():
@@ -65,6 +66,45 @@ def test_a_longer_arm_leaves_no_symmetry():
     assert found.confidence == 0
     assert found.candidate.shape == (642,)
     assert "The best map" in found.reason
+
+
+def blob(seed):
+    """A ball with a dozen bumps and dents at random."""
+    random = np.random.default_rng(seed)
+    places = random.normal(size=(12, 3))
+    places /= np.linalg.norm(places, axis=1, keepdims=True)
+    growth = 1 + np.exp(-6 * (1 - BALL.vertices @ places.T)) @ random.uniform(-0.35, 0.6, size=12)
+    return TriangleMesh(BALL.vertices * growth[:, None] * [0.8, 1.0, 1.3], BALL.faces)
+
+
+def star(lengths):
+    """Limbs of these lengths around a body that is round above and flat below."""
+    angles = 2 * np.pi * np.arange(len(lengths)) / len(lengths)
+    ends = np.stack([np.cos(angles), np.sin(angles), 0 * angles], axis=1)
+    growth = 1 + np.exp(-14 * (1 - BALL.vertices @ ends.T)) @ np.asarray(lengths)
+    places = BALL.vertices * growth[:, None]
+    return TriangleMesh(places * np.where(places[:, 2:] < 0, [1, 1, 0.3], [1, 1, 0.9]), BALL.faces)
+
+
+@pytest.mark.parametrize(
+    "shape",
+    [creature(arms=(0.9, 0.0)), creature(arms=(0.9, 0.3), bend=0.6), blob(1), blob(2), star([1.6, 0.9, 0.4])],
+    ids=["an arm is missing", "a bent body has a stump", "a blob", "another blob", "three unequal limbs"],
+)
+def test_shapes_without_a_symmetry_are_told_so(shape):
+    found = intrinsic_symmetry(shape, family=spectra_of(shape))
+    assert not found.found
+    assert found.eta is None
+    assert found.confidence == 0
+    assert found.reason.startswith("The best map")
+
+
+def test_two_equal_limbs_of_three_are_a_symmetry():
+    shape = star([1.6, 0.8, 0.8])
+    found = intrinsic_symmetry(shape, family=spectra_of(shape))
+    mirror = cdist(shape.vertices * [1, -1, 1], shape.vertices).argmin(axis=1)
+    assert found.found, found.reason
+    assert (PairDistances(shape)(found.eta, mirror) / geodesic_diameter(shape)).mean() < 0.02
 
 
 def test_one_orientation_for_both_sides_is_needed():
