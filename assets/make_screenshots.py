@@ -72,6 +72,12 @@ class Photographer:
         end = time.perf_counter() + 3.0
         self.wait(lambda: time.perf_counter() > end)
 
+    def rest_at(self, theta: float) -> None:
+        """Until the heat of this direction is drawn."""
+        results = self.assembly.results
+        self.wait(lambda: results.kernel is not None and results.kernel.diffusion.theta == theta)
+        self.rest()
+
     def save(self, name: str) -> None:
         self.rest()
         _pillow(self.window.grab().toImage()).convert("RGB").save(self.folder / f"{name}.png", optimize=True)
@@ -99,8 +105,7 @@ def angles(camera: Photographer) -> None:
     images = []
     for theta in (0, 45, 90, 135):
         camera.session.diffuse(theta=radians(theta))
-        camera.wait(lambda theta=theta: camera.assembly.results.kernel.diffusion.theta == radians(theta))
-        camera.rest()
+        camera.rest_at(radians(theta))
         images.append(_pillow(camera.window.view.picture(2, labels=False, transparent=True)))
     width, height = images[0].size
     parts = [image.crop((round(0.34 * width), 0, round(0.66 * width), height)) for image in images]
