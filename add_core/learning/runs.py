@@ -50,10 +50,7 @@ def train(
     Raises ParameterError for sets or settings that do not fit, GeometryError for a shape without a usable surface,
     ConvergenceError if the loss stops being a number, Cancelled on request.
     """
-    if isinstance(data, Collection):
-        task = LearningTask.of(data)
-    else:
-        task = data if isinstance(data, LearningTask) else LearningTask(data)
+    task = _task_of(data)
     if architecture not in SPECIFICATIONS:
         raise ParameterError(f"architecture must be one of {', '.join(SPECIFICATIONS)}, but it is {architecture!r}.")
     made = InputRecipe(alphas=default_alphas(architecture)) if recipe is None else recipe
@@ -97,6 +94,12 @@ def train(
     if minutes is not None:
         chosen = within(minutes, chosen, Path(folder), run)
     return run(chosen, Path(folder), report)
+
+
+def _task_of(data: Collection | LearningTask | Sequence[TrainingShape]) -> LearningTask:
+    if isinstance(data, Collection):
+        return LearningTask.of(data)
+    return data if isinstance(data, LearningTask) else LearningTask(data)
 
 
 def _prepared(name: str, done: int, total: int) -> dict[str, object]:

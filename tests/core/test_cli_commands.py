@@ -62,8 +62,10 @@ def test_spectra_are_written_reported_and_kept(egg, tmp_path, capsys):
     written = tmp_path / "spectra.npz"
     options = ("--alphas", "0,20", "--angles", 2, "--count", 8, "--workers", 1, "--json")
     run("spectra", egg, *options, "-o", written)
-    *steps, answer = results(capsys)
-    assert [step["done"] for step in steps] == [0, 1, 2, 3]
+    captured = capsys.readouterr()
+    (answer,) = [json.loads(line) for line in captured.out.splitlines()]
+    steps = [json.loads(line) for line in captured.err.splitlines()]
+    assert [step["done"] for step in steps if step["event"] == "progress"] == [0, 1, 2, 3]
     assert answer["operators"] == 3
     with np.load(written) as arrays:
         assert arrays["eigenfunctions"].shape == (3, 162, 8)
@@ -120,14 +122,16 @@ def test_a_mistake_is_one_line_and_status_two(words, complaint, capsys):
 
 
 def test_describe_gives_descriptors_as_they_are_compared(egg, tmp_path):
-    """Logarithms, each column standardised over the surface; those of ahks with α = 0 among the channels."""
-    for descriptor, width in (("wks", 16), ("ahks", 16 * 3)):
+    """Logarithms, each column standardised over the surface; the means of ahks over θ and the departures from them,
+    α = 0 among the channels, weigh alike: two angles share the variance of their mean.
+    """
+    for descriptor, width, spreads in (("wks", 16, {1.0}), ("ahks", 16 * 3, {1.0, 0.7071})):
         written = tmp_path / f"{descriptor}.npz"
         run("describe", egg, "--descriptor", descriptor, "--compared", "--count", 30, "--angles", 2, "-o", written)
         values = load_fields(written)[descriptor]
         assert values.shape == (162, width)
         assert_allclose(values.mean(axis=0), 0.0, atol=1e-9)
-        assert_allclose(values.std(axis=0), 1.0, rtol=1e-9)
+        assert set(np.round(values.std(axis=0), 4).tolist()) == spreads
 
 
 def test_spectra_of_one_angle(egg, tmp_path, capsys):
