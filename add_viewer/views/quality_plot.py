@@ -14,7 +14,8 @@ from ..models.session import Session
 from .theme import GRID, LIGHT, Theme
 
 LEGEND = (
-    "Share of matches within a geodesic radius of the truth. Solid: a mirror image counts as right; dashed: as wrong."
+    "Share of matches within a geodesic radius of the truth. Solid: a mirror image counts as right; dashed: as wrong. "
+    "Grey: the other position of Refined."
 )
 _SHADES = (1.0, 0.62, 0.4)
 
@@ -65,7 +66,7 @@ class QualityPlot(QWidget):
         theme = self._theme
         self.figure.clear()
         self.figure.set_facecolor(theme.window)
-        axes = self.figure.add_axes((0.08, 0.24, 0.72, 0.62))
+        axes = self.figure.add_axes((0.08, 0.24, 0.70, 0.62))
         axes.set_facecolor(theme.panel)
         axes.tick_params(colors=theme.muted, labelsize=8, length=3, width=0.8)
         axes.grid(True, color=theme.grid, linewidth=0.8)
@@ -90,8 +91,8 @@ class QualityPlot(QWidget):
             axes.plot(curve.x, curve.y, alpha=_SHADES[number % len(_SHADES)], **line)
         end = quality.curves[refined, False]
         name = "" if shape is None else shape.name
-        label = f"{name}: {100 * end.exact:.0f} % exact"
-        place = 0.96 - 0.11 * number
+        label = f"{name}\n{100 * end.exact:.0f} % exact"
+        place = 0.98 - 0.26 * number
         axes.text(1.02, place, label, transform=axes.transAxes, fontsize=8, color=self._theme.text, va="top")
 
     def show_theme(self, theme: Theme) -> None:
