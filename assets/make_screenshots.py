@@ -176,7 +176,7 @@ def transfer(camera: Photographer) -> None:
     camera.open("humans/83", "humans/94", "clouds/12")
     camera.session.pick(SHOULDER)
     camera.window.menus.actions["transfer"].trigger()
-    camera.session.match(method="zoomout", descriptor="geometry-vectors")
+    camera.session.match(method="zoomout", descriptor="geometry-vectors", refined=True)
     camera.save("transfer")
 
 

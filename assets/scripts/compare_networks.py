@@ -200,7 +200,7 @@ def main() -> None:
         note = f"{SETTINGS.steps} mini-batches of {SETTINGS.pairs} pairs from {len(BODIES)} bodies for each network."
         save_report(
             scores,
-            given.report / ("learned" if variant == "mesh" else f"learned_{variant}"),
+            given.report / f"learned_{variant}",
             title=f"16 numbers, test people, {variant}",
             command="python assets/scripts/compare_networks.py -o FOLDER",
             notes=[f"{PAIRS} pairs, {QUERIES} queries each.", note],
