@@ -122,8 +122,8 @@ def test_a_mistake_is_one_line_and_status_two(words, complaint, capsys):
 
 
 def test_describe_gives_descriptors_as_they_are_compared(egg, tmp_path):
-    """Logarithms, each column standardised over the surface; the means of ahks over θ and the departures from them,
-    α = 0 among the channels, weigh alike: two angles share the variance of their mean.
+    """Logarithms, each column standardised over the surface; of ahks the departures of both angles share the weight of
+    their mean.
     """
     for descriptor, width, spreads in (("wks", 16, {1.0}), ("ahks", 16 * 3, {1.0, 0.7071})):
         written = tmp_path / f"{descriptor}.npz"
