@@ -34,10 +34,19 @@ Said = Callable[[list[dict[str, Any]], bool], None]
 Ended = Callable[[int | None, str], None]
 """Takes the exit status, None if unknown, and the last line of text in the log."""
 
-_START = (
-    "import json, os, sys; sys.path[:] = json.loads(os.environ.pop('ADD_CORE_SEARCH_PATH')); "
-    "hasattr(os, 'nice') and os.nice(10); from add_core.cli import main; main()"
-)
+_START = """
+import json, os, sys
+sys.path[:] = json.loads(os.environ.pop("ADD_CORE_SEARCH_PATH"))
+if hasattr(os, "nice"):
+    os.nice(10)
+try:  # Linux shares its cores out among sessions before it looks at the niceness of a process in one of them
+    with open("/proc/self/autogroup", "w") as priority:
+        priority.write("5")
+except OSError:
+    pass
+from add_core.cli import main
+main()
+"""
 """The command imports what the window imports, from wherever the window has it, and lets the window go first."""
 
 _SINGLE = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "VECLIB_MAXIMUM_THREADS"), "1")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import Qt, Signal
+from PySide6.QtCore import Qt, QTimer, Signal
 from PySide6.QtWidgets import QGridLayout, QHBoxLayout, QLabel, QToolButton, QVBoxLayout, QWidget
 
 from ..models.descriptor_names import descriptor_name
@@ -32,8 +32,11 @@ class BestList(QWidget):
         self._column = QVBoxLayout(self)
         self._column.setContentsMargins(0, 0, 0, 0)
         self._column.setSpacing(GRID)
-        insights.best_changed.connect(self._show)
-        session.field_changed.connect(self._show)
+        # Three shapes answer one after the other; the list waits until the pictures are drawn.
+        self._later = QTimer(self, interval=0, singleShot=True)
+        self._later.timeout.connect(self._show)
+        insights.best_changed.connect(lambda: self._later.start())
+        session.field_changed.connect(lambda: self._later.start())
         self._show()
 
     def _show(self) -> None:

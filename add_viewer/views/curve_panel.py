@@ -29,8 +29,9 @@ from .theme import GRID, LIGHT, Theme
 _PATIENCE = 100
 """Milliseconds that the crosshair waits for the kernel's picture."""
 
-_FIRST_PATIENCE = 300
-"""Milliseconds that the axes wait for the shape's first picture: drawing them takes as long as a hundred curves."""
+_RENEWAL_PATIENCE, _FIRST_PATIENCE = 200, 300
+"""Milliseconds that new axes wait for the shapes' next and first pictures: drawing them takes as long as a hundred
+curves."""
 
 _SWITCHES = ("relative_curves", "reflected_curves")
 
@@ -116,7 +117,7 @@ class CurvePanel(QWidget):
             self._frame.stop()
             self._draw_moving()
 
-    def _renew(self, patience: int = _PATIENCE) -> None:
+    def _renew(self, patience: int = _RENEWAL_PATIENCE) -> None:
         if not self._renewal.isActive():
             self._renewal.start(patience)
 

@@ -13,7 +13,7 @@ from ...models.picks import Pick
 from ...models.results import DirectionField
 from ...models.shapes import OpenShape, Shape
 from ..theme import LIGHT, Theme
-from .marks import Needles, best_actors, marker_actors
+from .marks import Marks, Needles
 from .orbit_view import OrbitView
 from .picker import POINT_REACH, CloudPicker
 from .picture import take_picture
@@ -29,8 +29,7 @@ class Canvas(OrbitView):
         super().__init__(parent)
         self._body: Surface | None = None
         self._needles: Needles | None = None
-        self._marks: list[pv.Actor] = []
-        self._best: list[pv.Actor] = []
+        self._marks, self._best = Marks(self.renderer), Marks(self.renderer)
         self._point_size = 1.0
         _add_lights(self)
         self.show_theme(LIGHT)
@@ -40,10 +39,10 @@ class Canvas(OrbitView):
     def show_shape(self, opened: OpenShape | None, up: str, front: str) -> None:
         """Replace the shape; the camera looks it in the face."""
         self.show_directions(None)
-        self._remove([*self._marks, *self._best])
-        self._marks, self._best = [], []
+        self._marks.clear()
+        self._best.clear()
         if self._body is not None:
-            self._remove([self._body.actor])
+            self.renderer.RemoveActor(self._body.actor)
         self._body = None if opened is None else Surface(opened.shape)
         if opened is not None and self._body is not None:
             self.renderer.AddActor(self._body.actor)
@@ -60,29 +59,21 @@ class Canvas(OrbitView):
             self._body.show_colours(field.colors)
         else:
             self._body.show_field(None if field is None else field.position, "kernel" if field is None else field.tones)
-        self._show_best(() if field is None else field.best)
+        shape = self._body.shape
+        self._best.show_best(() if field is None else field.best, shape.vertices, _normals(shape))
         self.draw_moving()
-
-    def _show_best(self, best: tuple[int, ...]) -> None:
-        self._remove(self._best)
-        shape = self.shown
-        self._best = [] if shape is None else best_actors(best, shape.vertices, _normals(shape))
-        for actor in self._best:
-            self.renderer.AddActor(actor)
 
     def show_picks(self, picks: tuple[Pick, ...]) -> None:
         """Mark the picked points."""
-        self._remove(self._marks)
-        shape = self.shown
-        self._marks = [] if shape is None else marker_actors(picks, shape.vertices, _normals(shape))
-        for actor in self._marks:
-            self.renderer.AddActor(actor)
-        self.update()
+        if self._body is not None:
+            shape = self._body.shape
+            self._marks.show_picks(picks, shape.vertices, _normals(shape))
+            self.update()
 
     def show_directions(self, field: DirectionField | None) -> None:
         """Draw the direction field, or take it away."""
         if self._needles is not None:
-            self._remove([self._needles.actor])
+            self.renderer.RemoveActor(self._needles.actor)
         self._needles = None if field is None else Needles(field)
         if self._needles is not None:
             self.renderer.AddActor(self._needles.actor)
@@ -179,10 +170,6 @@ class Canvas(OrbitView):
         image = take_picture(self, factor, transparent=transparent)
         self.update()
         return image
-
-    def _remove(self, actors: list[pv.Actor]) -> None:
-        for actor in actors:
-            self.renderer.RemoveActor(actor)
 
 
 def _normals(shape: Shape) -> FloatArray | None:
