@@ -7,7 +7,7 @@ from typing import Any, TypeVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .errors import GeometryError, ParameterError
+from .errors import AddError, GeometryError, ParameterError
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
@@ -22,12 +22,35 @@ def read_only(array: _AnyArray) -> _AnyArray:
     return array
 
 
+def instance_of(name: str, value: object, *kinds: type, remedy: str = "") -> None:
+    """Raise ParameterError unless `value` is one of `kinds`."""
+    if not isinstance(value, kinds):
+        wanted = " or ".join(_with_article(kind.__name__) for kind in kinds)
+        raise ParameterError(f"{name} must be {wanted}, but it is {_kind_of(value)}.{remedy and ' '}{remedy}")
+
+
+def array_of(name: str, value: object, *, error: type[AddError] = ParameterError) -> np.ndarray[Any, Any]:
+    """`value` as an array of whatever it holds."""
+    try:
+        return np.asarray(value)
+    except ValueError:
+        raise error(f"{name} must be an array, but its rows differ in length. Pad or split them.") from None
+
+
+def numbers(name: str, value: object, *, error: type[AddError] = ParameterError) -> FloatArray:
+    """`value` as float64 of any shape, not copied if it is that already; text and complex numbers are refused."""
+    raw = array_of(name, value, error=error)
+    try:
+        if raw.dtype.kind in "biufO":  # NumPy would read numbers in text, and drop imaginary parts with a warning
+            return np.asarray(raw, dtype=np.float64)
+    except (TypeError, ValueError, OverflowError):
+        pass
+    raise error(f"{name} must hold real numbers, but it holds {_kind_of(raw.flat[0]) if raw.size else raw.dtype}.")
+
+
 def points_array(name: str, value: ArrayLike, *, least: int = 1) -> FloatArray:
     """`value` as a read-only float64 copy of shape (n, 3), n ≥ `least`, all finite."""
-    try:
-        array = np.array(value, dtype=np.float64)
-    except (TypeError, ValueError) as error:
-        raise GeometryError(f"{name} must be an array of numbers of shape (n, 3), but it is not: {error}.") from None
+    array = numbers(name, value, error=GeometryError).copy()
     if array.ndim != 2 or array.shape[1] != 3:
         raise GeometryError(f"{name} must have shape (n, 3), but it has {array.shape}.")
     if len(array) < least:
@@ -45,7 +68,7 @@ def points_array(name: str, value: ArrayLike, *, least: int = 1) -> FloatArray:
 
 def faces_array(value: ArrayLike, vertex_count: int) -> IntArray:
     """`value` as a read-only int64 copy of shape (m, 3) that indexes into `vertex_count` vertices."""
-    raw = np.asarray(value)
+    raw = array_of("faces", value, error=GeometryError)
     if raw.ndim != 2 or raw.shape[1] != 3:
         quads = " Split quads into triangles first." if raw.ndim == 2 and raw.shape[1] == 4 else ""
         raise GeometryError(f"faces must have shape (m, 3), but it has {raw.shape}.{quads}")
@@ -99,7 +122,7 @@ def positive(name: str, value: Any) -> float:
 
 def positive_array(name: str, value: ArrayLike) -> FloatArray:
     """`value` as a non-empty one-dimensional array of finite numbers > 0."""
-    array = np.atleast_1d(np.asarray(value, dtype=np.float64))
+    array = np.atleast_1d(numbers(name, value))
     if array.ndim != 1 or array.size == 0:
         raise ParameterError(f"{name} must be a list of numbers, but it has shape {array.shape}.")
     bad = ~(np.isfinite(array) & (array > 0))
@@ -111,9 +134,17 @@ def positive_array(name: str, value: ArrayLike) -> FloatArray:
 
 def one_of(name: str, value: Any, choices: tuple[str, ...]) -> str:
     """`value` if it is one of `choices`."""
-    if value not in choices:
+    if not isinstance(value, str) or value not in choices:
         raise ParameterError(f"{name} must be one of {', '.join(map(repr, choices))}, but it is {value!r}.")
     return str(value)
+
+
+def _kind_of(value: object) -> str:
+    return "None" if value is None else _with_article(type(value).__name__)
+
+
+def _with_article(name: str) -> str:
+    return f"{'an' if name[0] in 'AEIOaeio' else 'a'} {name}"
 
 
 def _number(name: str, value: Any, expectation: str, holds: Any) -> float:
@@ -128,10 +159,7 @@ def _number(name: str, value: Any, expectation: str, holds: Any) -> float:
 
 def descriptor_array(name: str, value: ArrayLike, *, width: int | None = None) -> FloatArray:
     """`value` as float64 of shape (n, d), one row a point, all finite; d = `width` where that is given."""
-    try:
-        array = np.ascontiguousarray(value, dtype=np.float64)
-    except (TypeError, ValueError) as error:
-        raise ParameterError(f"{name} must be an array of numbers of shape (n, d), but it is not: {error}.") from None
+    array = np.ascontiguousarray(numbers(name, value))
     if array.ndim != 2 or 0 in array.shape:
         raise ParameterError(f"{name} must have shape (n, d), a row for each point, but it has {array.shape}.")
     if width is not None and array.shape[1] != width:
@@ -146,7 +174,7 @@ def descriptor_array(name: str, value: ArrayLike, *, width: int | None = None) -
 
 def index_array(name: str, value: ArrayLike, limit: int, *, count: int | None = None, least: int = 0) -> IntArray:
     """`value` as int64 of shape (count,), each from `least` to `limit` − 1."""
-    array = np.asarray(value)
+    array = array_of(name, value)
     if array.ndim != 1 or (count is not None and len(array) != count):
         raise ParameterError(f"{name} must have shape ({'n' if count is None else count},), but it has {array.shape}.")
     if array.dtype.kind not in "iu":

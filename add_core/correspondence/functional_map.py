@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.sparse import csr_array, issparse
 
-from .._check import FloatArray, IntArray, count_in, descriptor_array, index_array, read_only
+from .._check import FloatArray, IntArray, array_of, count_in, descriptor_array, index_array, numbers, read_only
 from ..errors import ParameterError
 from ..geometry import TriangleMesh
 from ..spectra import Spectrum
@@ -124,7 +124,7 @@ class FunctionalMap:
         Φ₂ C Φ₁ᵀ S₁ f. Raises ParameterError if the field has another number of rows or is not finite.
         """
         k2, k1 = self.map_12.shape
-        values = np.asarray(field_1, dtype=np.float64)
+        values = numbers("field_1", field_1)
         columns = descriptor_array("field_1", values[:, None] if values.ndim == 1 else values)
         if len(columns) != len(self.spectrum_1.mass):
             raise ParameterError(f"field_1 must have {len(self.spectrum_1.mass)} rows, but it has {len(columns)}.")
@@ -139,7 +139,7 @@ def pulled_back(functions_1: FloatArray, match_21: ArrayLike | SoftMatches, n2: 
     Raises ParameterError if the correspondence does not lead from `n2` points to the functions' n1.
     """
     n1 = len(functions_1)
-    if not issparse(match_21) and np.ndim(match_21) == 1:
+    if not issparse(match_21) and array_of("match_21", match_21).ndim == 1:
         return np.asarray(functions_1[index_array("match_21", match_21, n1, count=n2)])
     soft = match_21 if issparse(match_21) else descriptor_array("match_21", match_21, width=n1)
     if soft.shape != (n2, n1):
@@ -148,7 +148,7 @@ def pulled_back(functions_1: FloatArray, match_21: ArrayLike | SoftMatches, n2: 
 
 
 def _counts(spectrum_1: Spectrum, spectrum_2: Spectrum, count: int | tuple[int, int]) -> tuple[int, int]:
-    k1, k2 = (count, count) if isinstance(count, int | np.integer) else count
+    k1, k2 = count if isinstance(count, tuple) and len(count) == 2 else (count, count)
     return (
         count_in("count", k1, 1, len(spectrum_1.eigenvalues)),
         count_in("count", k2, 1, len(spectrum_2.eigenvalues)),

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.spatial import KDTree
 
-from .._check import FloatArray, IntArray, positive, read_only
+from .._check import FloatArray, IntArray, instance_of, positive, read_only
 from ..geometry import PointCloud, TriangleMesh
 from ..geometry.mirror import mirror_map
 
@@ -45,6 +45,7 @@ def mirror_symmetry(shape: TriangleMesh | PointCloud, *, tolerance: float = 0.03
     between neighbouring vertices unless the vertices themselves are symmetric.
     Returns the plane and η (n,). Raises ParameterError if the tolerance is not positive.
     """
+    instance_of("shape", shape, TriangleMesh, PointCloud)
     tolerance = positive("tolerance", tolerance)
     points = shape.vertices
     weights = shape.vertex_areas if isinstance(shape, TriangleMesh) and shape.area > 0 else np.ones(len(points))

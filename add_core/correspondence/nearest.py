@@ -40,11 +40,22 @@ def nearest_matches(queries: ArrayLike, targets: ArrayLike, *, method: str = "ex
     one_of("method", method, ("exact", "approximate"))
     one = descriptor_array("queries", queries)
     two = descriptor_array("targets", targets, width=one.shape[1])
+    one, two = without_unit(one, two)
     if method == "approximate" and one.shape[1] > WIDEST_TREE and len(two) > CANDIDATES:
         return _by_projection(one, two)
     if one.shape[1] <= WIDEST_TREE:
         return _by_tree(one, two)
     return _by_products(one, two)
+
+
+def without_unit(queries: FloatArray, targets: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Both in a unit in which their largest number is about 1, so that squares neither overflow nor vanish.
+
+    The unit is a power of two: nothing is rounded but what is too small to count.
+    """
+    size = max(float(np.abs(queries).max()), float(np.abs(targets).max()))
+    exponent = -int(np.frexp(size)[1])
+    return np.ldexp(queries, exponent), np.ldexp(targets, exponent)
 
 
 def mutual_matches(queries: ArrayLike, targets: ArrayLike, *, method: str = "exact") -> MutualMatches:

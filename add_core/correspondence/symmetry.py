@@ -97,7 +97,7 @@ def intrinsic_symmetry(
     Several symmetries are not told apart: one of them is returned. Returns η (n,), or says that none was found.
     Raises ParameterError if the family has no isotropic channel, or angles without their mirror images.
     """
-    unit = normalize(shape)
+    unit, size = normalize(shape), count_in("size", size, 1, 10**9)
     if family is None:
         degrees = (0.0, positive("alpha", alpha))
         count = min(count_in("count", count, 10, 10**9), unit.vertex_count - 2)

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
+from scipy.sparse import issparse
 
-from .._check import FloatArray, IntArray, descriptor_array, index_array, read_only
+from .._check import FloatArray, IntArray, array_of, descriptor_array, index_array, instance_of, numbers, read_only
 from ..errors import ParameterError
 from ..geometry import PointCloud, TriangleMesh
 from ..geometry.pair_distances import PairDistances
@@ -49,15 +51,18 @@ def transfer_colors(
     smooth_map : the functional map for the smooth version where `correspondence` is none.
     Returns raw and smooth values, (n2, c). Raises ParameterError if arrays do not fit together or are not finite.
     """
-    values = coordinate_colors(source) if colors is None else np.asarray(colors, dtype=np.float64)
+    instance_of("source", source, TriangleMesh, PointCloud)
+    values = coordinate_colors(source) if colors is None else numbers("colors", colors)
     values = descriptor_array("colors", values[:, None] if values.ndim == 1 else values)
     if len(values) != source.vertex_count:
         raise ParameterError(f"colors must have {source.vertex_count} rows like the source, but it has {len(values)}.")
     if isinstance(correspondence, FunctionalMap):
         smooth_map, matches = correspondence, correspondence.match_21
     else:
-        matches = correspondence  # type: ignore[assignment]
-    count = matches.shape[0] if hasattr(matches, "shape") else len(matches)
+        if smooth_map is not None:
+            instance_of("smooth_map", smooth_map, FunctionalMap)
+        matches = _checked_matches(correspondence)
+    count = matches.shape[0]
     raw = pulled_back(values, matches, count)
     hard = matches if np.ndim(matches) == 1 else np.asarray(matches.argmax(axis=1)).ravel()
     hard = index_array("correspondence", np.asarray(hard), source.vertex_count)
@@ -70,11 +75,19 @@ def transfer_colors(
     return TransferredColors(read_only(raw), read_only(np.array(smooth)), read_only(hard), error)
 
 
+def _checked_matches(correspondence: ArrayLike | SoftMatches) -> Any:
+    matches = correspondence if issparse(correspondence) else array_of("correspondence", correspondence)
+    if matches.ndim not in (1, 2):
+        raise ParameterError(f"correspondence must have shape (n2,) or (n2, n1), but it has {matches.shape}.")
+    return matches
+
+
 def coordinate_colors(shape: TriangleMesh | PointCloud) -> FloatArray:
     """(n, 3), 0 to 1: a vertex's position in the shape's bounding box as red, green and blue.
 
     The box is that of the principal axes, so the colours turn with the shape: the longest axis runs through green.
     """
+    instance_of("shape", shape, TriangleMesh, PointCloud)
     centred = shape.vertices - shape.vertices.mean(axis=0)
     axes = np.linalg.eigh(centred.T @ centred)[1][:, [1, 2, 0]]
     # An axis has no sign: point it to where the shape reaches farther, so that a turned copy gets the same colours.

@@ -5,11 +5,11 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .._check import FloatArray, count_in, positive_array
+from .._check import FloatArray, count_in, numbers, positive_array
 from ..errors import ParameterError
 from ..spectra import SpectralFamily, Spectrum
 from .heat import heat_kernel_signature
-from .range import lowest_nonzero_eigenvalue
+from .range import checked_family, lowest_nonzero_eigenvalue
 
 SPAN = 64.0
 """The last default time over the first. On people P(right side) is 0.81 up to here and 0.67 over all times."""
@@ -20,11 +20,11 @@ def anisotropic_heat_kernel_signature(family: SpectralFamily, times: ArrayLike) 
     family.
 
     times : (T,) for all channels or (C, T), length², > 0. Heat runs slower as α grows, so that channels of
-        different α see
-    comparable regions only at times of their own: `anisotropic_heat_kernel_times`.
+        different α see comparable regions only at times of their own: `anisotropic_heat_kernel_times`.
     Raises ParameterError if a time is not positive or `times` has neither shape.
     """
-    moments = np.asarray(times, dtype=np.float64)
+    checked_family(family)
+    moments = numbers("times", times)
     if moments.ndim < 2:
         moments = np.broadcast_to(positive_array("times", moments), (len(family), moments.size))
     if moments.ndim != 2 or len(moments) != len(family):
@@ -40,7 +40,9 @@ def anisotropic_heat_kernel_times(family: SpectralFamily, count: int = 100) -> F
     (geometrically) over the angles: one angle must not be compared with another at a different time. At later times
     heat has forgotten which way it set out: the odd part of the curve over θ, which tells left from right, sinks
     below what a change of pose does to its mean.
+    Raises ParameterError if the spectrum of some operator holds no non-zero eigenvalue.
     """
+    checked_family(family)
     times = np.empty((len(family), count_in("count", count, 1, 1_000_000)))
     for alpha in np.unique(family.alphas):
         members = np.flatnonzero(family.alphas == alpha)
@@ -59,7 +61,7 @@ def angular_contrast(values: FloatArray, alphas: ArrayLike) -> FloatArray:
     either can be weighed. Vertices without mass, whose values are 0, have the logarithm of 10⁻³⁰⁰ in the means.
     Raises ParameterError if shapes do not fit or a value is negative.
     """
-    degrees = np.asarray(alphas, dtype=np.float64)
+    values, degrees = numbers("values", values), numbers("alphas", alphas)
     if values.ndim != 3 or degrees.shape != (values.shape[1],):
         raise ParameterError(
             f"values must be (n, C, T) with one of alphas for each channel, but they are {values.shape} and "
@@ -73,5 +75,6 @@ def angular_contrast(values: FloatArray, alphas: ArrayLike) -> FloatArray:
 
 
 def _ends(spectrum: Spectrum) -> tuple[float, float]:
+    last = 4 * np.log(10) / lowest_nonzero_eigenvalue(spectrum)
     first = np.log(10) / spectrum.eigenvalues[-1]
-    return first, min(SPAN * first, 4 * np.log(10) / lowest_nonzero_eigenvalue(spectrum))
+    return first, min(SPAN * first, last)

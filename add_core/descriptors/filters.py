@@ -6,9 +6,10 @@ from collections.abc import Callable
 
 import numpy as np
 
-from .._check import FloatArray, vertex_index
+from .._check import FloatArray, numbers, vertex_index
 from ..errors import ParameterError
 from ..spectra import Spectrum
+from .range import checked_spectrum
 
 Transfer = Callable[[FloatArray], FloatArray]
 
@@ -20,6 +21,7 @@ def spectral_signature(spectrum: Spectrum, transfer: FloatArray | Transfer) -> F
         them.
     Raises ParameterError if it has not one row of finite values for each eigenvalue.
     """
+    checked_spectrum(spectrum)
     return np.asarray(spectrum.eigenfunctions**2 @ _responses(spectrum, transfer))
 
 
@@ -29,13 +31,14 @@ def spectral_kernel(spectrum: Spectrum, source: int, transfer: FloatArray | Tran
     The band-pass sister of the heat kernel, eq. (17) with τ in place of exp(−tλ); transfer as in
     `spectral_signature`. Raises ParameterError for a source that is no vertex.
     """
+    checked_spectrum(spectrum)
     source = vertex_index("source", source, len(spectrum.mass))
     weights = spectrum.eigenfunctions[source][:, None] * _responses(spectrum, transfer)
     return np.asarray(spectrum.eigenfunctions @ weights)
 
 
 def _responses(spectrum: Spectrum, transfer: FloatArray | Transfer) -> FloatArray:
-    values = np.asarray(transfer(spectrum.eigenvalues) if callable(transfer) else transfer, dtype=np.float64)
+    values = numbers("transfer", transfer(spectrum.eigenvalues) if callable(transfer) else transfer)
     values = values[:, None] if values.ndim == 1 else values
     count = len(spectrum.eigenvalues)
     if values.ndim != 2 or len(values) != count:

@@ -9,7 +9,7 @@ from .._check import FloatArray, count_in, finite, positive, positive_array
 from ..errors import ParameterError
 from ..spectra import Spectrum
 from .filters import spectral_signature
-from .range import lowest_nonzero_eigenvalue
+from .range import checked_spectrum, lowest_nonzero_eigenvalue
 
 _SPAN = 24.0
 
@@ -21,6 +21,7 @@ def heat_kernel_signature(spectrum: Spectrum, times: ArrayLike) -> FloatArray:
     spectrum of an anisotropic operator, of eq. (17).
     Raises ParameterError if a time is not positive.
     """
+    checked_spectrum(spectrum)
     moments = positive_array("times", times)
     return spectral_signature(spectrum, np.exp(-np.outer(spectrum.eigenvalues, moments)))
 
@@ -42,6 +43,7 @@ def scaled_heat_kernel_signature(spectrum: Spectrum, times: ArrayLike) -> FloatA
     Its mass-weighted sum is 1 at every time, so that no time outweighs the others. Raises like
     `heat_kernel_signature`.
     """
+    checked_spectrum(spectrum)
     moments = positive_array("times", times)
     trace = np.exp(-np.outer(spectrum.eigenvalues, moments)).sum(axis=0)
     return np.asarray(heat_kernel_signature(spectrum, moments) / trace)
@@ -65,10 +67,13 @@ def scale_invariant_heat_kernel_signature(
     Vertices without mass have zeros. Raises ParameterError if τ does not ascend.
     """
     step, base = positive("step", step), positive("base", base)
+    if base <= 1:
+        raise ParameterError(f"base must be greater than 1, so that times ascend with τ, but it is {base:g}.")
     start = _middle_exponent(spectrum, base) - _SPAN / 2 if first is None else finite("first", first)
     end = start + _SPAN if last is None else finite("last", last)
     if end - start < 2 * step:
         raise ParameterError(f"last must exceed first by two steps at least, but they are {end:g} and {start:g}.")
+    count_in("the number of times, (last - first) / step,", int((end - start) / step), 2, 100_000)
     exponents = np.arange(start, end + step / 2, step)
     frequencies = count_in("frequencies", frequencies, 1, len(exponents) // 2)
     logarithm = np.full((len(spectrum.mass), len(exponents)), 0.0)

@@ -10,6 +10,7 @@ from .._check import FloatArray, count_in, positive_array
 from ..errors import ParameterError
 from ..spectra import SpectralFamily
 from .filters import spectral_signature
+from .range import checked_family
 
 _DEGREE = 3
 COVERED = 99.0
@@ -28,6 +29,7 @@ def geometry_vectors(
         1/length².
     Vertices without mass have zeros. Raises ParameterError if `count` or `reach` is out of range.
     """
+    checked_family(family)
     count = count_in("count", count, _DEGREE + 1, 100_000)
     ends = spline_reach([family]) if reach is None else positive_array("reach", reach)
     if len(ends) != len(family):
@@ -49,7 +51,9 @@ def spline_reach(families: list[SpectralFamily]) -> FloatArray:
 
     Raises ParameterError if the families differ in their channels.
     """
-    first = families[0]
+    if not families:
+        raise ParameterError("families must hold at least one family, but it is empty.")
+    first = checked_family(families[0])
     for family in families:
         if not (np.array_equal(family.alphas, first.alphas) and np.array_equal(family.thetas, first.thetas)):
             raise ParameterError("families must share their alphas and thetas, but they differ.")

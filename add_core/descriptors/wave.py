@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .._check import FloatArray, count_in, positive, read_only
+from .._check import FloatArray, count_in, numbers, positive, read_only
 from ..errors import ParameterError
 from ..spectra import Spectrum
 from .filters import spectral_signature
@@ -33,7 +33,7 @@ def wave_kernel_signature(spectrum: Spectrum, energies: ArrayLike, *, width: flo
     Raises ParameterError for a width that is not positive or an energy that is not finite.
     """
     width = positive("width", width)
-    levels = np.atleast_1d(np.asarray(energies, dtype=np.float64))
+    levels = np.atleast_1d(numbers("energies", energies))
     if levels.ndim != 1 or not levels.size or not np.isfinite(levels).all():
         raise ParameterError("energies must be a list of finite numbers (logarithms of eigenvalues), but it is not.")
     eigenvalues = spectrum.eigenvalues

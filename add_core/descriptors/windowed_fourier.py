@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .._check import FloatArray, count_in, positive
+from .._check import FloatArray, count_in, numbers, positive
 from ..errors import ParameterError
 from ..spectra import Spectrum
-from .range import lowest_nonzero_eigenvalue
+from .range import checked_spectrum, lowest_nonzero_eigenvalue
 
 
 def windowed_fourier_transform(
@@ -22,14 +22,15 @@ def windowed_fourier_transform(
     signals : (n,) or (n, P). window : (K,), the ĝ_k. frequencies : L from 1 to K; None for all.
     Raises ParameterError if a length does not fit or a value is not finite.
     """
+    checked_spectrum(spectrum)
     functions, mass = spectrum.eigenfunctions, spectrum.mass
-    f = np.asarray(signals, dtype=np.float64)
+    f = numbers("signals", signals)
     f = f[:, None] if f.ndim == 1 else f
     if f.ndim != 2 or len(f) != len(mass) or not np.isfinite(f).all():
         raise ParameterError(
             f"signals must be finite, one row for each of the {len(mass)} vertices, but it is {f.shape}."
         )
-    g = np.asarray(window, dtype=np.float64)
+    g = numbers("window", window)
     if g.shape != spectrum.eigenvalues.shape or not np.isfinite(g).all():
         raise ParameterError(
             f"window must be finite, one number for each of the {len(spectrum.eigenvalues)} eigenvalues, "

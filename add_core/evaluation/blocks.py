@@ -8,6 +8,7 @@ import numpy as np
 from scipy.spatial.distance import cdist
 
 from .._check import FloatArray, IntArray, descriptor_array
+from ..correspondence.nearest import without_unit
 from ..errors import ParameterError
 
 BLOCK = 2_000_000
@@ -31,9 +32,7 @@ def distance_blocks(queries: FloatArray, targets: FloatArray, rows: IntArray) ->
     Equal descriptors are equally far, to the last bit, whichever block they come in: ties are decided by the
     descriptors, not by rounding. The unit is arbitrary but the same for all blocks.
     """
-    size = max(float(np.abs(queries).max()), float(np.abs(targets).max()))
-    unit = 2.0 ** -np.ceil(np.log2(size)) if size > 0 else 1.0  # a power of two: nothing is rounded
-    one, two = queries * unit, targets * unit
+    one, two = without_unit(queries, targets)
     step = max(1, BLOCK // len(targets))
     measure = _Direct(one, two) if one.shape[1] <= WIDEST_DIRECT else _ByProducts(one, two)
     for low in range(0, len(rows), step):

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .._check import FloatArray, IntArray, count_in, index_array, positive, read_only
+from .._check import FloatArray, IntArray, count_in, index_array, instance_of, numbers, positive, read_only
 from ..errors import ParameterError
 from ..geometry import PointCloud, TriangleMesh
 from ..geometry.pair_distances import PairDistances
@@ -76,6 +76,7 @@ def princeton(
     one, two = checked_descriptors(queries, targets)
     known = Truth.of(truth, symmetry, queries=len(one), targets=len(two))
     lengths, root = _measure(shape, distances, area, len(two))
+    radii = _checked_radii(radii)
     every = isinstance(lengths, _Table)
     random = np.random.default_rng(0)
     found = []
@@ -119,12 +120,19 @@ def princeton_curve(errors: ArrayLike, *, radii: ArrayLike = RADII, symmetric: b
 
     Raises ParameterError if no error is known.
     """
-    values = np.asarray(errors, dtype=np.float64)
+    values, reach = numbers("errors", errors).ravel(), _checked_radii(radii)
     values = values[~np.isnan(values)]
     if not len(values):
         raise ParameterError("errors must be known for at least one point, but they are NaN for all.")
-    within = (values[:, None] <= np.asarray(radii)).sum(axis=0) / len(values)
-    return PrincetonCurve(read_only(np.array(radii, dtype=float)), read_only(within), symmetric, float(values.mean()))
+    within = (values[:, None] <= reach).sum(axis=0) / len(values)
+    return PrincetonCurve(read_only(reach), read_only(within), symmetric, float(values.mean()))
+
+
+def _checked_radii(radii: ArrayLike) -> FloatArray:
+    array = np.atleast_1d(numbers("radii", radii)).copy()
+    if array.ndim != 1 or not array.size or not (array[0] >= 0 and (np.diff(array) > 0).all()):
+        raise ParameterError("radii must be a list of numbers that ascend from 0 or more, but they are not.")
+    return array
 
 
 class _Table:
@@ -151,6 +159,8 @@ def _measure(
     shape: TriangleMesh | PointCloud | None, distances: ArrayLike | Lengths | None, area: float | None, count: int
 ) -> tuple[Lengths, float]:
     """How to measure pairs of target vertices, and √area."""
+    if shape is not None:
+        instance_of("shape", shape, TriangleMesh, PointCloud)
     if area is None:
         if shape is None:
             raise ParameterError("area must be given along with distances, or the target as shape: errors are ÷ √area.")
@@ -161,7 +171,7 @@ def _measure(
     if callable(distances):
         return distances, root
     if distances is not None:
-        table = np.asarray(distances)
+        table = numbers("distances", distances)
         if table.shape != (count, count):
             raise ParameterError(f"distances must have shape ({count}, {count}), but it has {table.shape}.")
         return _Table(table), root
@@ -219,16 +229,16 @@ class _Counts:
 
 
 def _curve_counts(
-    known: Truth, row: IntArray, target: IntArray, weight: FloatArray, lengths: Lengths, root: float, radii: ArrayLike
+    known: Truth, row: IntArray, target: IntArray, weight: FloatArray, lengths: Lengths, root: float, radii: FloatArray
 ) -> _Counts:
     errors = _errors(known, row, target, lengths) / root
     order = np.argsort(errors)
     reached = np.concatenate([[0.0], np.cumsum(weight[order])])
-    within = reached[np.searchsorted(errors[order], np.asarray(radii, dtype=np.float64), side="right")]
+    within = reached[np.searchsorted(errors[order], radii, side="right")]
     return _Counts(within, float((weight * errors).sum()))
 
 
-def _assembled(found: list[_Counts], count: int, radii: ArrayLike, *, symmetric: bool) -> PrincetonCurve:
+def _assembled(found: list[_Counts], count: int, radii: FloatArray, *, symmetric: bool) -> PrincetonCurve:
     within = np.sum([part.within for part in found], axis=0) / count
     error = sum(part.error for part in found) / count
-    return PrincetonCurve(read_only(np.array(radii, dtype=float)), read_only(np.minimum(within, 1.0)), symmetric, error)
+    return PrincetonCurve(read_only(radii), read_only(np.minimum(within, 1.0)), symmetric, error)

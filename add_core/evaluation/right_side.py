@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .._check import FloatArray, read_only
+from ..correspondence.nearest import without_unit
 from .blocks import checked_descriptors
 from .truth import SurfacePoints, Truth
 
@@ -42,7 +43,7 @@ def right_side(
     queries (q, d), targets (n, d), truth (q,), symmetry (n,) : as for `cmc`.
     Raises ParameterError if arrays do not fit together or a descriptor is not finite.
     """
-    one, two = checked_descriptors(queries, targets)
+    one, two = without_unit(*checked_descriptors(queries, targets))
     known = Truth.of(truth, symmetry, queries=len(one), targets=len(two))
     point, true, mirror = one[known.rows], two[known.vertex], two[known.mirror]
     nearer = np.sign(((point - mirror) ** 2).sum(axis=1) - ((point - true) ** 2).sum(axis=1))

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .._check import FloatArray, IntArray, index_array, read_only
+from .._check import FloatArray, IntArray, array_of, index_array, numbers, read_only
 from ..errors import ParameterError
 
 UNKNOWN = -1
@@ -28,14 +28,16 @@ class SurfacePoints:
     weights: FloatArray
 
     def __init__(self, corners: ArrayLike, weights: ArrayLike) -> None:
-        vertices, shares = np.array(corners, dtype=np.int64), np.array(weights, dtype=np.float64)
+        vertices, shares = array_of("corners", corners), numbers("weights", weights)
+        if vertices.dtype.kind not in "iu":
+            raise ParameterError(f"corners must hold integers, but it holds {vertices.dtype}.")
         if vertices.ndim != 2 or vertices.shape[1] != 3 or vertices.shape != shares.shape:
             raise ParameterError(
                 f"corners and weights must both have shape (q, 3), but they have {vertices.shape} and {shares.shape}."
             )
         if not (np.isfinite(shares).all() and (shares >= 0).all() and np.allclose(shares.sum(axis=1), 1.0, atol=1e-4)):
             raise ParameterError("weights must be at least 0 and sum to 1 for each point, but they do not.")
-        object.__setattr__(self, "corners", read_only(vertices))
+        object.__setattr__(self, "corners", read_only(vertices.astype(np.int64)))
         object.__setattr__(self, "weights", read_only(shares / shares.sum(axis=1, keepdims=True)))
 
     def __len__(self) -> int:

@@ -8,7 +8,7 @@ import numpy as np
 from scipy.sparse import csr_array
 from scipy.sparse.csgraph import connected_components, dijkstra
 
-from .._check import FloatArray, IntArray
+from .._check import FloatArray, IntArray, instance_of
 from ..errors import GeometryError
 from .chords import chord_graph
 from .cloud import PointCloud
@@ -36,6 +36,7 @@ def geodesic_diameter(shape: TriangleMesh | PointCloud) -> float:
 
     Raises GeometryError if the shape has no extent.
     """
+    instance_of("shape", shape, TriangleMesh, PointCloud)
     pieces = _cloud_pieces(shape) if isinstance(shape, PointCloud) else _mesh_pieces(shape)
     diameter = max(
         (float(measure(_best_end(positions, lengths)).max()) for positions, lengths, measure in pieces), default=0.0

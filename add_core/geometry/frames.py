@@ -7,7 +7,7 @@ from dataclasses import dataclass, fields
 
 import numpy as np
 
-from .._check import BoolArray, FloatArray, IntArray, read_only
+from .._check import BoolArray, FloatArray, IntArray, instance_of, read_only
 from .cloud import PointCloud
 from .cloud_curvature import point_curvature_tensors
 from .curvature import face_curvature_tensors
@@ -53,6 +53,7 @@ def principal_curvatures(shape: TriangleMesh | PointCloud) -> PrincipalFrames:
     Boundaries, several components and faces without area are allowed. Faces turned against their neighbours are
     taken the way most of their piece is turned, and a warning says so: θ would run the other way on them.
     """
+    instance_of("shape", shape, TriangleMesh, PointCloud)
     return _cloud_frames(shape) if isinstance(shape, PointCloud) else _mesh_frames(shape)
 
 

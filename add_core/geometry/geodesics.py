@@ -9,7 +9,7 @@ from typing import Literal
 import numpy as np
 from scipy.sparse.csgraph import dijkstra
 
-from .._check import FloatArray, IntArray, one_of, vertex_index
+from .._check import FloatArray, IntArray, array_of, instance_of, one_of, vertex_index
 from ..errors import ParameterError
 from .chords import chord_distances
 from .cloud import PointCloud
@@ -38,6 +38,7 @@ def geodesic_distances(
     no face uses.
     Raises ParameterError if a source is not a vertex or the method is unknown.
     """
+    instance_of("mesh", mesh, TriangleMesh, PointCloud)
     exact = one_of("method", method, ("exact", "edges")) == "exact"
     chosen = _source_list(sources, mesh.vertex_count)
     if isinstance(mesh, PointCloud):
@@ -79,7 +80,7 @@ def edge_distances(piece: SurfacePiece) -> Callable[[int], FloatArray]:
 
 
 def _source_list(sources: int | Sequence[int] | IntArray, vertex_count: int) -> IntArray:
-    listed = [sources] if np.ndim(sources) == 0 else list(sources)  # type: ignore[arg-type]
+    listed = [sources] if array_of("sources", sources).ndim == 0 else list(sources)  # type: ignore[arg-type]
     if not listed:
         raise ParameterError("sources must name at least one vertex, but it is empty.")
     return np.array([vertex_index("sources", source, vertex_count) for source in listed], dtype=np.int64)

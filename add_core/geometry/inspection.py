@@ -9,7 +9,7 @@ import numpy as np
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
-from .._check import BoolArray, IntArray
+from .._check import BoolArray, IntArray, instance_of
 from .cloud import PointCloud
 from .mesh import TriangleMesh
 from .orientation import orientation
@@ -76,6 +76,7 @@ def inspect(shape: TriangleMesh | PointCloud) -> ShapeReport:
 
     A boundary or several components are no defects. Faces count as without area if rounding made their normal.
     """
+    instance_of("shape", shape, TriangleMesh, PointCloud)
     lower, upper = (tuple(map(float, bound(shape.vertices, axis=0))) for bound in (np.min, np.max))
     box: dict[str, Any] = {"name": shape.name, "vertices": shape.vertex_count, "lower": lower, "upper": upper}
     if isinstance(shape, PointCloud):

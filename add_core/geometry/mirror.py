@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from scipy.spatial import cKDTree
 
-from .._check import FloatArray, IntArray, read_only
+from .._check import FloatArray, IntArray, instance_of, read_only
 from .mesh import TriangleMesh
 
 _SEEDS = 20
@@ -19,6 +19,7 @@ def mirror_map(mesh: TriangleMesh) -> IntArray | None:
         From there the map is followed from triangle to triangle, so that it is exact, and holds for every pose.
     The plane is sought across the principal axes and the coordinate axes. Vertices without a face map to themselves.
     """
+    instance_of("mesh", mesh, TriangleMesh)
     opposite = _opposite_corners(mesh)
     for guess in _reflections(mesh):
         found = _follow(mesh, opposite, guess)

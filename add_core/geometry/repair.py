@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .._check import instance_of
 from ..errors import GeometryError
 from .inspection import Defect, inspect, repeated_rows
 from .mesh import TriangleMesh
@@ -46,6 +47,7 @@ def repair(mesh: TriangleMesh) -> Repair:
 
     Raises GeometryError if no face has an area.
     """
+    instance_of("mesh", mesh, TriangleMesh)
     if not mesh.has_area.any():
         raise GeometryError(
             f"none of the {len(mesh.faces)} faces has an area. Check the vertices; are they all on one line?"

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .._check import FloatArray, IntArray, count_in, read_only, vertex_index
+from .._check import FloatArray, IntArray, count_in, instance_of, read_only, vertex_index
 from ..errors import ParameterError
 from .cloud import PointCloud
 from .mesh import TriangleMesh
@@ -33,6 +33,7 @@ def farthest_points(shape: TriangleMesh | PointCloud, count: int, start: int = 0
 
     Raises ParameterError if `count` exceeds the number of vertices to choose from, or `start` is not one of them.
     """
+    instance_of("shape", shape, TriangleMesh, PointCloud)
     start = vertex_index("start", start, shape.vertex_count)
     allowed = shape.is_referenced if isinstance(shape, TriangleMesh) else np.ones(shape.vertex_count, dtype=bool)
     count = count_in("count", count, 1, int(allowed.sum()))

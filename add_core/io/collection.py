@@ -101,6 +101,8 @@ class Collection:
         return read_only(np.flatnonzero(chosen if part == "train" else ~chosen).astype(np.int64))
 
     def _checked(self, index: int) -> int:
+        if not isinstance(index, int | np.integer):
+            raise ParameterError(f"index must be the number of one shape, but it is {index!r}. Take several in a loop.")
         # IndexError, as lists raise it: Python's own protocols end on it.
         if not -len(self) <= index < len(self):
             raise IndexError(f"{self.title} has shapes 0 to {len(self) - 1}, but {index} was asked for.")

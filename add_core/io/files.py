@@ -12,7 +12,9 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import ArrayLike
 
+from .._check import instance_of
 from ..errors import AddError, ParameterError, ShapeFileError
+from ..geometry import PointCloud, TriangleMesh
 from .atomic import write_atomically
 from .contents import Fields, FileContents, Shape
 from .formats import FORMATS, extensions
@@ -50,7 +52,7 @@ def load_shape_and_fields(path: StrPath) -> LoadedShape:
 
     Raises as `load_shape` does.
     """
-    path = Path(path)
+    path = file_path(path)
     try:
         contents = _contents(path)
         return LoadedShape(contents.shape(path.stem), contents.fields)
@@ -63,7 +65,7 @@ def load_fields(path: StrPath) -> Fields:
 
     Raises ShapeFileError, with the file's name, if it cannot be read; the result is empty if there are none.
     """
-    path = Path(path)
+    path = file_path(path)
     try:
         contents = _contents(path)
         if not (known := FORMATS[path.suffix.lower()]).holds_fields:
@@ -83,7 +85,8 @@ def save_shape(shape: Shape, path: StrPath, fields: Mapping[str, ArrayLike] | No
     Raises ShapeFileError if the format cannot hold the shape or fields, or the file cannot be written; ParameterError
     if a field does not have one row a vertex.
     """
-    path = Path(path)
+    path = file_path(path)
+    instance_of("shape", shape, TriangleMesh, PointCloud)
     try:
         known = FORMATS.get(path.suffix.lower())
         if known is None:
@@ -92,11 +95,21 @@ def save_shape(shape: Shape, path: StrPath, fields: Mapping[str, ArrayLike] | No
             raise ShapeFileError(
                 f"{known.name} files are read, but not written. Choose one of {', '.join(extensions(writable=True))}."
             )
-        if fields and not known.holds_fields:
+        if fields is not None and len(fields) and not known.holds_fields:
             raise ShapeFileError(_no_fields(known.name))
-        write_atomically(path, known.write(shape, _checked_fields(fields or {}, shape.vertex_count)))
+        write_atomically(
+            path, known.write(shape, _checked_fields({} if fields is None else fields, shape.vertex_count))
+        )
     except AddError as error:
         raise type(error)(f"{path}: {error}") from None
+
+
+def file_path(path: StrPath) -> Path:
+    """`path` as a Path. Raises ParameterError if it is no name at all."""
+    try:
+        return Path(path)
+    except TypeError:
+        raise ParameterError(f"path must be the name of a file or folder, but it is {path!r}.") from None
 
 
 def _contents(path: Path) -> FileContents:
@@ -152,6 +165,7 @@ def _no_fields(name: str) -> str:
 
 
 def _checked_fields(fields: Mapping[str, ArrayLike], vertex_count: int) -> Fields:
+    instance_of("fields", fields, Mapping)
     checked: Fields = {}
     for name, values in fields.items():
         try:

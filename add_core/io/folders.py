@@ -7,12 +7,12 @@ import re
 from functools import lru_cache
 from pathlib import Path
 
-from .._check import IntArray, count_in
+from .._check import IntArray, count_in, instance_of
 from ..errors import ShapeFileError
 from ..geometry import TriangleMesh, mirror_map
 from .collection import Collection, Landmarks
 from .contents import Shape
-from .files import StrPath, load_shape
+from .files import StrPath, file_path, load_shape
 from .formats import extensions
 from .landmark_files import find_landmarks, find_symmetry
 from .layouts import Layout, Member, layout_of, whereabouts
@@ -32,7 +32,8 @@ def open_collection(path: StrPath, *, only: str = "*", neutral: int | None = Non
 
     Raises ShapeFileError if there is no such folder or no shape in it, saying where the known data sets are to be had.
     """
-    folder = _folder_of_shapes(Path(path))
+    instance_of("only", only, str)
+    folder = _folder_of_shapes(file_path(path))
     files = tuple(file for file in _shape_files(folder) if fnmatch.fnmatchcase(file.stem, only))
     if not files:
         raise ShapeFileError(f"{path}: no shape in it is named {only}.")

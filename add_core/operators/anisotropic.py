@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.sparse import csr_array
 
-from .._check import FloatArray, at_least_zero, finite, one_of, read_only
+from .._check import FloatArray, at_least_zero, finite, instance_of, one_of, read_only
 from ..errors import GeometryError, ParameterError
 from ..geometry import PointCloud, PrincipalFrames, TriangleMesh, principal_curvatures
 from .diffusivity import CONDUCTIVITIES, Conductivity, Diffusivity
@@ -48,6 +48,7 @@ class AnisotropicLaplacian:
         conductivity: Conductivity = "curvature",
         frames: PrincipalFrames | None = None,
     ) -> None:
+        instance_of("shape", shape, TriangleMesh, PointCloud)
         self.alpha = at_least_zero("alpha", alpha)
         self.conductivity = _conductivity(conductivity)
         frames = principal_curvatures(shape) if frames is None else _frames_of(shape, frames)
@@ -118,8 +119,8 @@ class AnisotropicLaplacian:
 
     def stiffness_values(self, theta: float) -> FloatArray:
         """Entries (nnz,) of W(θ) on `pattern`."""
-        finite("theta", theta)
-        return np.asarray(self._mean + np.cos(2 * theta) * self._cosine + np.sin(2 * theta) * self._sine)
+        angle = 2 * finite("theta", theta)
+        return np.asarray(self._mean + np.cos(angle) * self._cosine + np.sin(angle) * self._sine)
 
     def stiffness(self, theta: float = 0.0) -> csr_array:
         """Stiffness matrix W(θ) (n, n), without unit: symmetric, positive SEMI-definite, row sums zero; eq. (24).
@@ -139,6 +140,7 @@ def _conductivity(value: Conductivity) -> Conductivity:
 
 
 def _frames_of(shape: TriangleMesh | PointCloud, frames: PrincipalFrames) -> PrincipalFrames:
+    instance_of("frames", frames, PrincipalFrames)
     rows = len(shape.faces) if isinstance(shape, TriangleMesh) else shape.vertex_count
     if len(frames.normals) != rows:
         what = "faces" if isinstance(shape, TriangleMesh) else "points"

@@ -8,7 +8,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .._check import FloatArray
+from .._check import FloatArray, numbers
 from ..errors import GeometryError, ParameterError
 from ..geometry import PrincipalFrames
 
@@ -40,10 +40,10 @@ class Diffusivity:
         cls, frames: PrincipalFrames, directions: ArrayLike, *, along: ArrayLike, across: ArrayLike
     ) -> Diffusivity:
         """`along` and `across` (m,) or one number, > 0, about the tangential axes of `directions` (m, 3)."""
-        axes = _rows("directions", directions, frames, (3,))
-        axes = axes - np.einsum("mi,mi->m", axes, frames.normals)[:, None] * frames.normals
+        given = _rows("directions", directions, frames, (3,))
+        axes = given - np.einsum("mi,mi->m", given, frames.normals)[:, None] * frames.normals
         length = np.linalg.norm(axes, axis=1)
-        lost = (length <= 1e-9 * np.linalg.norm(directions, axis=1)) & frames.normals.any(axis=1)
+        lost = (length <= 1e-9 * np.linalg.norm(given, axis=1)) & frames.normals.any(axis=1)
         if lost.any():
             raise GeometryError(
                 f"directions must have a tangential part, but {lost.sum()} of {len(lost)} have none "
@@ -76,7 +76,7 @@ class Diffusivity:
 
 
 def _rows(name: str, value: ArrayLike, frames: PrincipalFrames, shape: tuple[int, ...]) -> FloatArray:
-    array = np.asarray(value, dtype=np.float64)
+    array = numbers(name, value, error=GeometryError)
     expected = (len(frames.normals), *shape)
     if array.shape != expected:
         raise GeometryError(f"{name} must have shape {expected}, one row for each frame, but it has {array.shape}.")
@@ -86,7 +86,8 @@ def _rows(name: str, value: ArrayLike, frames: PrincipalFrames, shape: tuple[int
 
 
 def _positive_rows(name: str, value: ArrayLike, frames: PrincipalFrames) -> FloatArray:
-    array = _rows(name, np.broadcast_to(np.asarray(value, dtype=np.float64), len(frames.normals)), frames, ())
+    given = numbers(name, value)
+    array = _rows(name, np.full(len(frames.normals), given.item()) if given.size == 1 else given, frames, ())
     if not (array > 0).all():
         raise ParameterError(f"{name} must be greater than 0, but number {int((~(array > 0)).argmax())} is not.")
     return array

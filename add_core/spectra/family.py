@@ -9,7 +9,7 @@ from typing import Literal, get_args
 
 import numpy as np
 
-from .._check import FloatArray, at_least_zero, count_in, one_of, read_only
+from .._check import FloatArray, at_least_zero, count_in, instance_of, one_of, read_only
 from ..errors import ParameterError
 from ..geometry import PointCloud, TriangleMesh
 from ..operators import AnisotropicLaplacian, Conductivity
@@ -89,8 +89,7 @@ def compute_spectra(
     Raises ParameterError for a parameter out of range, GeometryError for a shape without area, ConvergenceError if
     even SciPy fails.
     """
-    if not isinstance(shape, TriangleMesh | PointCloud):
-        raise ParameterError(f"shape must be a TriangleMesh or a PointCloud, but it is a {type(shape).__name__}.")
+    instance_of("shape", shape, TriangleMesh, PointCloud)
     channels = _channels(alphas, count_in("angles", angles, 1, 10_000))
     conductivity = one_of("conductivity", conductivity, get_args(Conductivity))  # type: ignore[assignment]
     dtype = one_of("dtype", dtype, get_args(Precision))  # type: ignore[assignment]

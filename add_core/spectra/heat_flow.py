@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 from scipy.sparse import csc_array
 from scipy.sparse.linalg import SuperLU, splu
 
-from .._check import BoolArray, FloatArray, finite, positive, positive_array, vertex_index
+from .._check import BoolArray, FloatArray, finite, instance_of, numbers, positive, positive_array, vertex_index
 from ..errors import ParameterError
 from ..operators import AnisotropicLaplacian
 from .krylov import KrylovBasis, workspace
@@ -35,6 +35,7 @@ class HeatFlow:
     """
 
     def __init__(self, laplacian: AnisotropicLaplacian, *, tolerance: float = TOLERANCE) -> None:
+        instance_of("laplacian", laplacian, AnisotropicLaplacian, remedy="AnisotropicLaplacian(shape) makes one.")
         self.laplacian, self.tolerance = laplacian, positive("tolerance", tolerance)
         self._massive: BoolArray = laplacian.mass > 0
         self._root = np.sqrt(np.where(self._massive, laplacian.mass, 1.0))
@@ -65,7 +66,7 @@ class HeatFlow:
         Raises like `kernel`.
         """
         source, moments = self._vertex(source), positive_array("times", times)
-        angles = [finite("thetas", angle) for angle in np.atleast_1d(np.asarray(thetas, dtype=np.float64))]
+        angles = [finite("thetas", angle) for angle in np.atleast_1d(numbers("thetas", thetas))]
         # A diagonal value converges twice as fast as a column, so one factorisation serves one and a half decades.
         gammas = 10.0 ** (1.5 * np.floor(np.log10(moments) / 1.5)) / 2
         left, room = np.empty((len(angles), len(moments))), workspace(len(self._root))

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from threadpoolctl import threadpool_limits
 
-from .._check import FloatArray, count_in, finite, read_only
+from .._check import FloatArray, count_in, finite, instance_of, read_only
 from ..operators import AnisotropicLaplacian
 from .solver import PencilSolver
 
@@ -37,6 +37,7 @@ def compute_spectrum(laplacian: AnisotropicLaplacian, *, theta: float = 0.0, cou
     `compute_spectra`.
     Raises ParameterError if `count` is out of range, ConvergenceError if every method fails.
     """
+    instance_of("laplacian", laplacian, AnisotropicLaplacian, remedy="AnisotropicLaplacian(shape) makes one.")
     theta = finite("theta", theta)
     count = count_in("count", count, 1, int((laplacian.mass > 0).sum()))
     pattern = laplacian.pattern
