@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 import torch
@@ -11,7 +12,7 @@ from scipy.linalg import eigh
 from .._check import FloatArray, IntArray, count_in, positive
 from ..errors import ParameterError
 from .architectures import Architecture, build
-from .inputs import InputRecipe, Moments
+from .inputs import FLOOR, InputRecipe, Moments
 from .layers import FC
 from .model import Model
 from .pairs import PairSampler
@@ -41,6 +42,17 @@ def optimal_coefficients(
     within = within + positive("ridge", ridge) * mean * np.eye(width)
     vectors = eigh(between, within, subset_by_index=(width - outputs, width - 1))[1]
     return np.ascontiguousarray(vectors[:, ::-1].T)
+
+
+def linear_recipe(recipe: InputRecipe) -> InputRecipe:
+    """The recipe that this method takes, of as many eigenpairs and splines."""
+    return replace(recipe, alphas=(0.0,), angles=1, logarithm=False)
+
+
+def linear_part(shape: PreparedShape) -> PreparedShape:
+    """Inputs (n, 1, M) by `linear_recipe` of a shape prepared with logarithms, α = 0 being the first channel."""
+    values = np.exp(np.asarray(shape.values[:, :1], dtype=np.float32)) - np.float32(FLOOR)
+    return replace(shape, values=values, moments=Moments.of(values, shape.mass))
 
 
 def optimal_spectral_descriptor(

@@ -33,6 +33,9 @@ _LEARNED = {
     "humans-madd3": DescriptorName(
         "humans-madd3", "mADD3", "Learned by the paper's network on people: sharp, and knows left from right."
     ),
+    "humans-osd": DescriptorName(
+        "humans-osd", "OSD", "Optimal spectral descriptors: the best linear ones, learned on people, without direction."
+    ),
 }
 
 

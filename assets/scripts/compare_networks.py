@@ -29,8 +29,8 @@ from add_core.geometry.pair_distances import PairDistances
 from add_core.io import humans
 from add_core.learning import InputRecipe, Model, TrainingSettings, TrainingShape, load_model
 from add_core.learning.architectures import build_network
-from add_core.learning.inputs import FLOOR, Moments
-from add_core.learning.optimal_spectral import optimal_spectral_descriptor
+from add_core.learning.inputs import Moments
+from add_core.learning.optimal_spectral import linear_part, linear_recipe, optimal_spectral_descriptor
 from add_core.learning.training import fit
 from add_core.learning.training_set import PreparedShape, prepare
 from add_core.learning.windowed_fourier import FourierShape, WindowedFourierNetwork, learn_windowed_fourier
@@ -92,15 +92,10 @@ def network(name: str, shapes: list[PreparedShape], folder: Path, *, isotropic: 
 
 def osd(shapes: list[PreparedShape]) -> Describe:
     """Optimal spectral descriptors, from the channel of α = 0 without the logarithm."""
-    recipe = InputRecipe(alphas=(0.0,), angles=1, splines=RECIPE.splines, logarithm=False)
-
-    def linear(shape: PreparedShape) -> PreparedShape:
-        values = np.exp(np.asarray(shape.values[:, :1], dtype=np.float32)) - np.float32(FLOOR)
-        return replace(shape, values=values, moments=Moments.of(values, shape.mass))
-
     symmetry = training_bodies.people_middles().symmetry
-    model = optimal_spectral_descriptor([linear(shape) for shape in shapes], recipe, symmetry=symmetry)
-    return lambda shape, _: model.describe_inputs(linear(shape).values, shape.mass)
+    linear = [linear_part(shape) for shape in shapes]
+    model = optimal_spectral_descriptor(linear, linear_recipe(RECIPE), symmetry=symmetry)
+    return lambda shape, _: model.describe_inputs(linear_part(shape).values, shape.mass)
 
 
 def windowed_fourier(bodies: list[TrainingShape], file: Path) -> Describe:

@@ -4,6 +4,7 @@
     python train_models.py more-humans -o RUN --start FIRST --inputs FIRST/inputs
     python train_models.py dogs -o RUN
     python train_models.py correspondence -o RUN --start HUMANS_RUN
+    python train_models.py osd -o RUN
 
 Nearly half of the time goes into spectra: 17 operators for each body, 15 seconds on a core, and 20 MB of disk each in
 RUN/inputs, which the runs may share (--inputs). It may be stopped and started again; RUN/model.safetensors is the best
@@ -22,6 +23,7 @@ import training_bodies
 from add_core.io import dogs, humans
 from add_core.learning import InputRecipe, LearningTask, Model, TrainingSettings, TrainingShape, load_model
 from add_core.learning.architectures import build_network
+from add_core.learning.optimal_spectral import linear_part, linear_recipe, optimal_spectral_descriptor
 from add_core.learning.training import fit
 from add_core.learning.training_set import PreparedShape, prepare
 
@@ -85,6 +87,14 @@ def learn(data: str, run: Path, inputs: Path, start: Path | None, steps: int | N
     )
 
 
+def learn_osd(inputs: Path) -> Model:
+    """Optimal spectral descriptors of half of the people, in closed form."""
+    bodies = [training_bodies.person(number) for number in range(0, PEOPLE, 2)]
+    shapes = [linear_part(shape) for shape in prepare(bodies, RECIPE, inputs)]
+    symmetry = training_bodies.people_middles().symmetry
+    return optimal_spectral_descriptor(shapes, linear_recipe(RECIPE), symmetry=symmetry)
+
+
 def _say(event: dict[str, object]) -> None:
     if event["event"] != "step" or int(str(event["step"])) % 50 == 0:
         print(json.dumps(event), flush=True)
@@ -93,14 +103,17 @@ def _say(event: dict[str, object]) -> None:
 def main() -> None:
     """Train one model, and write it once more with weights of half precision, as it ships."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("data", choices=sorted(SETTINGS))
+    parser.add_argument("data", choices=[*sorted(SETTINGS), "osd"])
     parser.add_argument("-o", "--output", type=Path, required=True)
     parser.add_argument("--inputs", type=Path, help="Folder of prepared inputs. [default: inputs in the run's folder]")
     parser.add_argument("--start", type=Path, help="Model whose first layers are taken over.")
     parser.add_argument("--steps", type=int)
     given = parser.parse_args()
     inputs = given.inputs or given.output / "inputs"
-    model = learn(given.data, given.output, inputs, given.start, given.steps)
+    if given.data == "osd":
+        model = learn_osd(inputs)
+    else:
+        model = learn(given.data, given.output, inputs, given.start, given.steps)
     model.save(given.output / "shipped.safetensors", precision="float16")
 
 

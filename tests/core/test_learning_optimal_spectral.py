@@ -1,5 +1,7 @@
 """Optimal spectral descriptors against the optimum that they claim to be."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
@@ -7,7 +9,12 @@ from numpy.testing import assert_allclose
 from add_core.errors import ParameterError
 from add_core.geometry.shapes import ellipsoid
 from add_core.learning import InputRecipe, TrainingShape
-from add_core.learning.optimal_spectral import optimal_coefficients, optimal_spectral_descriptor
+from add_core.learning.optimal_spectral import (
+    linear_part,
+    linear_recipe,
+    optimal_coefficients,
+    optimal_spectral_descriptor,
+)
 from add_core.learning.training_set import prepare
 
 RECIPE = InputRecipe(alphas=(0.0,), angles=1, eigenpairs=30, splines=8, logarithm=False)
@@ -43,6 +50,16 @@ def test_no_other_direction_separates_better():
     others = np.random.default_rng(3).normal(size=(200, 5))
     assert max(map(separation, others)) <= separation(best) * (1 + 1e-12)
     assert separation(best + 0.05 * others[0]) < separation(best)
+
+
+def test_the_linear_part_of_inputs_with_logarithms_is_what_the_linear_recipe_makes(tmp_path):
+    recipe = replace(RECIPE, alphas=(0.0, 30.0), angles=2, logarithm=True)
+    shape = TrainingShape(ellipsoid(1.0, 0.8, 0.6, subdivisions=2), np.arange(162))
+    (both,), (linear,) = (
+        prepare([shape], each, tmp_path, precision="float32", workers=1) for each in (recipe, linear_recipe(recipe))
+    )
+    assert_allclose(linear_part(both).values, linear.values, rtol=1e-4, atol=1e-5)
+    assert_allclose(linear_part(both).moments.mean, linear.moments.mean, rtol=1e-4)
 
 
 def test_a_descriptor_learned_from_shapes_describes_them(tmp_path):
