@@ -177,7 +177,7 @@ def _families(
         def both(done: int, total: int, position: int = position) -> None:
             advance(position * total + done, 2 * total)
 
-        k = min(count, shape.vertex_count - 1)
+        k = min(count, max(1, int(shape.has_mass.sum()) - 1))
         found.append(compute_spectra(normalize(shape), alphas=alphas, angles=angles, count=k, progress=both))
     return found[0], found[1]
 

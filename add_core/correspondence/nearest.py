@@ -67,14 +67,17 @@ def mutual_matches(queries: ArrayLike, targets: ArrayLike, *, method: str = "exa
 
 
 def _by_tree(queries: FloatArray, targets: FloatArray) -> IntArray:
-    # Equal targets go into the tree once, under their lowest number; two different ones equally near are both asked
-    # for.
+    # Equal targets go into the tree once, under their lowest number; a second one equally near shows that there may
+    # be any number of them.
     distinct, first = np.unique(targets, axis=0, return_index=True)
-    near, found = KDTree(distinct).query(queries, k=[1, 2])
+    tree = KDTree(distinct)
+    near, found = tree.query(queries, k=[1, 2])
     distances, places = np.asarray(near), np.asarray(found)
-    candidates = first[np.minimum(places, len(distinct) - 1)]
-    tied = distances[:, 0] == distances[:, 1]
-    return np.asarray(np.where(tied, candidates.min(axis=1), candidates[:, 0]), dtype=np.int64)
+    matches = first[places[:, 0]].astype(np.int64)
+    for row in np.flatnonzero(distances[:, 0] == distances[:, 1]):
+        tied = np.sort(first[tree.query_ball_point(queries[row], distances[row, 0] * (1 + 1e-12))])
+        matches[row] = tied[((targets[tied] - queries[row]) ** 2).sum(axis=1).argmin()]
+    return matches
 
 
 def _by_products(queries: FloatArray, targets: FloatArray) -> IntArray:

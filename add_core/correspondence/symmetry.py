@@ -100,7 +100,7 @@ def intrinsic_symmetry(
     unit, size = normalize(shape), count_in("size", size, 1, 10**9)
     if family is None:
         degrees = (0.0, positive("alpha", alpha))
-        count = min(count_in("count", count, 10, 10**9), unit.vertex_count - 2)
+        count = min(count_in("count", count, 10, 10**9), max(int(unit.has_mass.sum()) - 2, 1))
         family = compute_spectra(unit, alphas=degrees, angles=angles, count=count, progress=progress)
     isotropic = np.flatnonzero(family.alphas == 0)
     if not len(isotropic):

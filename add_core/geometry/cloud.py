@@ -8,7 +8,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .._check import FloatArray, points_array, read_only
+from .._check import BoolArray, FloatArray, points_array, read_only
 from ..errors import GeometryError
 from .fans import Fans, build_fans
 from .neighbours import DistinctPoints, distinct_points
@@ -72,6 +72,13 @@ class PointCloud:
     def fans(self) -> Fans:
         """The triangles around every point: what a cloud has in place of faces."""
         return build_fans(self.points, self.outward_normals, self.tangent_planes, self.distinct)
+
+    @cached_property
+    def has_mass(self) -> BoolArray:
+        """(n,): whether any fan touches a point, so that it stands for some area. Only these take part in spectra."""
+        touched = np.ones(self.vertex_count, dtype=bool)
+        touched[self.fans.isolated] = False
+        return read_only(touched)
 
     @property
     def area(self) -> float:

@@ -58,7 +58,7 @@ def build_fans(points: FloatArray, normals: FloatArray, planes: TangentPlanes, d
     weights = _weights(stars, flat, len(first))
     triangles, weights = _shared_by_duplicates(stars[sound], weights[sound], distinct)
     isolated = np.setdiff1d(np.arange(len(distinct.place)), triangles)
-    if len(isolated):
+    if 0 < len(isolated) < len(distinct.place):  # with no triangle at all an error follows, which says more
         _log.warning("%d of %d points touch no triangle (first: %d).", len(isolated), len(distinct.place), isolated[0])
     edges = arc_edges(points, normals, triangles)
     areas = np.linalg.norm(np.cross(edges[:, 0], edges[:, 1]), axis=1) / 2

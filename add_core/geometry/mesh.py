@@ -94,6 +94,11 @@ class TriangleMesh:
         return read_only(np.bincount(self.faces.ravel(), share, self.vertex_count).astype(np.float64))
 
     @cached_property
+    def has_mass(self) -> BoolArray:
+        """(n,): whether a vertex stands for any area. Only these take part in spectra."""
+        return read_only(self.vertex_areas > 0)
+
+    @cached_property
     def vertex_normals(self) -> FloatArray:
         """(n, 3), unit, area-weighted mean of the adjacent faces' normals; zero where there is none."""
         total = np.zeros((self.vertex_count, 3))

@@ -6,10 +6,11 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+import numpy as np
 import torch
 from torch import Tensor, nn
 
-from .._check import count_in
+from .._check import at_least_zero, count_in, instance_of, numbers
 from ..errors import ParameterError
 from .layers import ASF, FC, SC, ReLU, Softmax
 
@@ -72,6 +73,10 @@ class Network(nn.Module):  # type: ignore[misc]
         return (self.layers[:-1] if self.is_classifier else self.layers)(self._checked(x))
 
     def _checked(self, x: Tensor) -> Tensor:
+        instance_of("inputs", x, Tensor)
+        weights = next(self.parameters()).dtype
+        if x.dtype not in (weights, torch.float16, torch.bfloat16):
+            raise ParameterError(f"inputs must be {weights} like the weights, but they are {x.dtype}.")
         wanted = (self.architecture.channels, self.architecture.splines)
         if x.ndim != 3 or tuple(x.shape[1:]) != wanted:
             raise ParameterError(
@@ -102,7 +107,7 @@ def build_network(
 
     Raises ParameterError for an unknown name or numbers out of range.
     """
-    if name not in SPECIFICATIONS:
+    if not isinstance(name, str) or name not in SPECIFICATIONS:
         raise ParameterError(f"name must be one of {', '.join(SPECIFICATIONS)}, but it is {name!r}.")
     published = re.sub(r"FC16$", f"FC{count_in('outputs', outputs, 1, 100_000)}", SPECIFICATIONS[name])
     architecture = Architecture(
@@ -119,7 +124,7 @@ def build_network(
 def build(architecture: Architecture, *, seed: int = 0) -> Network:
     """A network of any architecture with random weights; leaves the global random state of torch alone."""
     with torch.random.fork_rng(devices=[]):
-        torch.manual_seed(seed)
+        torch.manual_seed(count_in("seed", seed, 0, 2**63 - 1))
         return Network(architecture)
 
 
@@ -146,13 +151,15 @@ def default_alphas(name: str) -> tuple[float, ...]:
 def channel_count(alphas: Sequence[float], angles: int) -> int:
     """C: one channel for each α and angle, but one in all for each α = 0."""
     count_in("angles", angles, 1, 10_000)
-    if not len(alphas):
+    degrees = [at_least_zero("alphas", alpha) for alpha in np.atleast_1d(numbers("alphas", alphas))]
+    if not degrees:
         raise ParameterError("alphas must hold at least one number, but it is empty.")
-    return sum(angles if alpha > 0 else 1 for alpha in alphas)
+    return sum(angles if degree > 0 else 1 for degree in degrees)
 
 
 def _layers(architecture: Architecture) -> list[nn.Module]:
     """Layers in order. `width` is the last axis of what the next one gets; SC multiplies it by the channels."""
+    instance_of("layers", architecture.layers, str)
     width, stacked, layers = architecture.splines, False, []
     for word in architecture.layers.split():
         found = _LAYER.fullmatch(word)

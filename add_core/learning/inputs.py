@@ -84,7 +84,7 @@ class InputRecipe:
             normalize(shape),
             alphas=(0.0,) if self.isotropic else self.alphas,
             angles=self.angles,
-            count=min(self.eigenpairs, _points_with_area(shape)),
+            count=min(self.eigenpairs, max(1, int(shape.has_mass.sum()))),
             conductivity=self.conductivity,
             progress=progress,
             workers=workers,
@@ -147,9 +147,3 @@ class Moments:
         """`values` of shape (…, C, M) less the mean, over the deviation, as float32."""
         scaled = (values - self.mean) / np.maximum(self.deviation, np.float32(FLAT))
         return np.asarray(scaled, dtype=np.float32)
-
-
-def _points_with_area(shape: TriangleMesh | PointCloud) -> int:
-    if isinstance(shape, TriangleMesh):
-        return max(1, int((shape.vertex_areas > 0).sum()))
-    return shape.vertex_count

@@ -5,6 +5,8 @@ from __future__ import annotations
 import torch
 from torch import Tensor, nn
 
+from .._check import count_in
+
 
 class ASF(nn.Module):  # type: ignore[misc]
     """Anisotropic spectral filters, eq. (18): (B, C, M) -> (B, C, filters), the same linear map on every channel.
@@ -18,7 +20,7 @@ class ASF(nn.Module):  # type: ignore[misc]
 
     def __init__(self, inputs: int, filters: int, *, bias: bool = True) -> None:
         super().__init__()
-        self.linear = nn.Linear(inputs, filters, bias=bias)
+        self.linear = nn.Linear(_size("inputs", inputs), _size("filters", filters), bias=bias)
         _start(self.linear)
 
     @property
@@ -44,7 +46,7 @@ class FC(nn.Module):  # type: ignore[misc]
 
     def __init__(self, inputs: int, outputs: int, *, bias: bool = True) -> None:
         super().__init__()
-        self.linear = nn.Linear(inputs, outputs, bias=bias)
+        self.linear = nn.Linear(_size("inputs", inputs), _size("outputs", outputs), bias=bias)
         _start(self.linear)
 
     @property
@@ -71,6 +73,10 @@ class Softmax(nn.Module):  # type: ignore[misc]
     def forward(self, x: Tensor) -> Tensor:
         """(B, P) -> (B, P)."""
         return torch.softmax(x, dim=1)
+
+
+def _size(name: str, value: int) -> int:
+    return count_in(name, value, 1, 10_000_000)
 
 
 def _start(linear: nn.Linear) -> None:

@@ -19,6 +19,7 @@ from ..errors import AddError, ParameterError, ShapeFileError
 from ..geometry import PointCloud, TriangleMesh
 from ..io import shipped_models
 from ..io.atomic import write_atomically
+from ..io.files import file_path
 from .architectures import Architecture, Network, build
 from .inputs import InputRecipe, Inputs, Moments, Progress
 
@@ -183,7 +184,7 @@ def load_model(model: str | Path) -> Model:
 
     Raises ParameterError for a name that is neither, ShapeFileError for a file that holds no model.
     """
-    path = Path(model)
+    path = file_path(model)
     if path.is_dir() and (path / RUN_MODEL).is_file():
         path = path / RUN_MODEL
     if not path.is_file():

@@ -13,6 +13,9 @@ from .diffusivity import CONDUCTIVITIES, Conductivity, Diffusivity
 from .elements import Elements, directional_parts
 from .pattern import SparsityPattern
 
+LARGEST_ALPHA = 1e30
+"""Beyond it products of conductivities soon vanish in float64."""
+
 
 class AnisotropicLaplacian:
     r"""The operator :math:`Δ_{α,θ} f = -\mathrm{div}(R_θ D_α R_θ^\top ∇f)` of section 4 on one shape, for every
@@ -49,7 +52,7 @@ class AnisotropicLaplacian:
         frames: PrincipalFrames | None = None,
     ) -> None:
         instance_of("shape", shape, TriangleMesh, PointCloud)
-        self.alpha = at_least_zero("alpha", alpha)
+        self.alpha = _degree(alpha)
         self.conductivity = _conductivity(conductivity)
         frames = principal_curvatures(shape) if frames is None else _frames_of(shape, frames)
         self._discretise(shape, Diffusivity.of_model(frames, self.alpha, self.conductivity))
@@ -112,7 +115,7 @@ class AnisotropicLaplacian:
             raise ParameterError("alpha belongs to the two models, but this operator has a field of its own.")
         other = object.__new__(AnisotropicLaplacian)
         other.__dict__.update(self.__dict__)
-        other.alpha = at_least_zero("alpha", alpha)
+        other.alpha = _degree(alpha)
         other.conductivity = _conductivity(self.conductivity if conductivity is None else conductivity)
         other._assemble(Diffusivity.of_model(self.frames, other.alpha, other.conductivity))
         return other
@@ -132,6 +135,12 @@ class AnisotropicLaplacian:
     def weyl_eigenvalue(self, index: int) -> float:
         """Weyl's estimate of λ_index, 1/length²: 4π·index / Σ area/√(along·across), the same for every θ."""
         return float(4 * np.pi * index / np.sum(self.elements.weighted_areas / np.sqrt(self._along * self._across)))
+
+
+def _degree(alpha: float) -> float:
+    if at_least_zero("alpha", alpha) > LARGEST_ALPHA:
+        raise ParameterError(f"alpha must be from 0 to {LARGEST_ALPHA:g}, or no heat moves at all, but it is {alpha}.")
+    return float(alpha)
 
 
 def _conductivity(value: Conductivity) -> Conductivity:

@@ -62,7 +62,7 @@ def test_nearest_matches_are_those_of_brute_force(width, kind, monkeypatch):
     random = np.random.default_rng(width)
     queries, targets = random.normal(size=(80, width)), random.normal(size=(70, width))
     if kind == "full of ties":
-        queries, targets = random.integers(0, 2, (80, width)), random.integers(0, 2, (70, width))
+        queries, targets = random.integers(0, 2, (80, width)) + 0.5, random.integers(0, 3, (70, width))
     if kind == "far from zero":
         queries, targets = queries + 1e5, targets + 1e5
     assert_array_equal(nearest_matches(queries, targets), cdist(queries, targets, "sqeuclidean").argmin(axis=1))

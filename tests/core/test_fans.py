@@ -135,6 +135,13 @@ def test_an_outlier_is_reported_and_touched_by_nothing(caplog, away):
     assert "1 of 163 points touch no triangle (first: 162)" in caplog.text
 
 
+def test_a_cloud_without_triangles_leaves_complaints_to_whoever_needs_them(caplog):
+    """A warning beside the error about its missing area would be a second line for one mistake."""
+    with caplog.at_level(logging.WARNING, logger="add_core"):
+        assert_array_equal(PointCloud(np.eye(3)[:2]).fans.isolated, [0, 1])
+    assert not caplog.text
+
+
 def test_points_in_one_place_share_one_fan():
     grid = rectangle(n=6).vertices
     cloud = flat_cloud(np.vstack([grid, grid[10:13], grid[10:11]]))

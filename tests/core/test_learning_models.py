@@ -87,6 +87,16 @@ def test_clouds_and_small_shapes_are_described(model, mesh):
     assert np.isfinite(describe(model, tiny)).all()
 
 
+def test_a_point_apart_from_its_cloud_is_described_too(mesh):
+    """It stands for no area, so that there is one eigenpair fewer than points, and it holds no heat at all."""
+    cloud = PointCloud(np.vstack([subsample(mesh, 60).cloud.points, [[50.0, 0.0, 0.0]]]))
+    assert cloud.has_mass.sum() == 60
+    recipe = InputRecipe(alphas=(0.0,), angles=1, eigenpairs=300, splines=12)
+    family = recipe.spectra(cloud, cache=False, workers=1)
+    assert family.eigenvalues.shape == (1, 60)
+    assert np.isfinite(recipe.inputs(family)).all()
+
+
 def test_the_isotropic_twin_has_as_many_weights_and_no_direction(mesh):
     twin = InputRecipe(alphas=(0.0, 30.0), angles=2, eigenpairs=40, splines=12, isotropic=True)
     family = twin.spectra(mesh, workers=1, cache=False)

@@ -191,6 +191,12 @@ def test_softmax_networks_know_their_logits():
         ({"name": "ADD3", "angles": 0}, "angles must be from 1"),
         ({"name": "ADD3", "splines": 0}, "splines must be from 1"),
         ({"name": "ADD3", "alphas": ()}, "alphas must hold at least one"),
+        ({"name": "ADD3", "alphas": (-1.0,)}, "alphas must be finite and at least 0, but it is -1"),
+        ({"name": "ADD3", "alphas": "fifty"}, "alphas must hold real numbers, but it holds a str"),
+        ({"name": "ADD3", "seed": "x"}, "seed must be a whole number"),
+        ({"name": "ADD3", "layers": "SC FC0"}, "outputs must be from 1"),
+        ({"name": "ADD3", "layers": 5}, "layers must be a str"),
+        ({"name": ["ADD3"]}, "name must be one of ADD1"),
     ],
 )
 def test_networks_that_cannot_be_are_explained(arguments, complaint):
@@ -210,6 +216,16 @@ def test_networks_that_cannot_be_are_explained(arguments, complaint):
 def test_layers_in_an_impossible_order_are_explained(layers, complaint):
     with pytest.raises(ParameterError, match=complaint):
         Network(Architecture("mine", layers, channels=2, splines=3))
+
+
+def test_inputs_that_are_no_tensor_of_the_weights_kind_are_explained():
+    network = build_network("ADD1", angles=4, splines=8)
+    with pytest.raises(ParameterError, match="inputs must be a Tensor, but it is a ndarray"):
+        network(np.zeros((2, 4, 8)))
+    with pytest.raises(
+        ParameterError, match=r"inputs must be torch\.float32 like the weights, but they are torch\.float64"
+    ):
+        network(torch.zeros(2, 4, 8, dtype=torch.float64))
 
 
 def test_inputs_of_another_recipe_are_explained():

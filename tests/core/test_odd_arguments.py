@@ -182,6 +182,7 @@ def test_vertex_numbers_are_explained_whatever_comes_in_their_place(call, number
         (lambda: save_shape(MESH, "never.ply", [1, 2]), "fields must be a Mapping, but it is a list"),
         (lambda: AnisotropicLaplacian(MESH, conductivity=POINTS), "conductivity must be one of 'curvature', 'con"),
         (lambda: AnisotropicLaplacian(MESH, frames=MESH), "frames must be a PrincipalFrames, but it is a Tri"),
+        (lambda: AnisotropicLaplacian(MESH, alpha=1e300), r"alpha must be from 0 to 1e\+30"),
         (lambda: scale_invariant_heat_kernel_signature(SPECTRUM, base=1), "base must be greater than 1"),
         (lambda: scale_invariant_heat_kernel_signature(SPECTRUM, step=1e-9), "number of times, .* from 2 to 100000"),
         (lambda: spline_reach([]), "families must hold at least one family"),

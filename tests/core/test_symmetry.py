@@ -156,3 +156,10 @@ def test_a_bent_shape_has_no_mirror_plane():
     assert not found.found
     assert found.eta is None
     assert found.residual > 0.03
+
+
+def test_loose_vertices_ask_for_no_smaller_count():
+    """150 eigenpairs by default, but no more than vertices with area: the caller has not asked for any number."""
+    ball = sphere(1)
+    loose = TriangleMesh(np.vstack([ball.vertices, ball.vertices * 1.1]), ball.faces)
+    assert len(intrinsic_symmetry(loose, angles=2).candidate) == 84
