@@ -10,7 +10,7 @@ import numpy as np
 from .._check import FloatArray, IntArray
 from ..correspondence import icp, nearest_matches, zoomout
 from ..correspondence.functional_map import FunctionalMap
-from ..errors import ParameterError
+from ..errors import ParameterError, ShapeFileError
 from ..evaluation import match_errors, surface_area
 from ..evaluation.baselines import (
     BASELINES,
@@ -24,6 +24,8 @@ from ..evaluation.baselines import (
 from ..geometry import PointCloud, TriangleMesh, normalize
 from ..geometry.pair_distances import PairDistances
 from ..io import known_matches, save_arrays, save_shape, shipped_place
+from ..io.contents import indices
+from ..io.text import float_rows, lines_of
 from ..spectra import SpectralFamily, compute_spectra
 from .reporting import Advance, progress, result
 from .shapes import open_shape
@@ -134,8 +136,8 @@ def _truth(name: str, first: str, second: str, count: int) -> IntArray:
             raise ParameterError(f"the true correspondence of {first} and {second} is not known. Give a file with it.")
         return known
     try:
-        return np.loadtxt(name, dtype=np.int64, ndmin=1)
-    except (OSError, ValueError) as error:
+        return indices(float_rows(lines_of(Path(name).read_bytes()), 1, "the number of a vertex")[:, 0])
+    except (OSError, ShapeFileError) as error:
         raise ParameterError(f"{name} is not a list of vertex numbers, one a line ({error}).") from None
 
 

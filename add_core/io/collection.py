@@ -41,6 +41,7 @@ class Collection:
     licence : under which terms the shapes may be used, in a few words.
     template : title of the collection whose vertices are the places of the landmarks, "" for places of their own.
     make_shape : gives the shape of an index. landmarks : gives those of an index, None if the shapes share their faces.
+    pairs : gives the map between the shapes of two indices where it is known as such.
     """
 
     title: str
@@ -56,6 +57,7 @@ class Collection:
     template: str = ""
     make_shape: Callable[[int], Shape] = field(repr=False)
     landmarks: Callable[[int], Landmarks] | None = field(default=None, repr=False)
+    pairs: Callable[[int, int], IntArray | None] | None = field(default=None, repr=False)
 
     def __len__(self) -> int:
         return len(self.names)
@@ -73,6 +75,9 @@ class Collection:
         """
         i, j = self._checked(i), self._checked(j)
         first, second = self.make_shape(i), self.make_shape(j)
+        known = None if self.pairs is None or i == j else self.pairs(i, j)
+        if known is not None:
+            return known
         if self.landmarks is None:
             if not _same_connectivity(first, second):
                 raise ParameterError(

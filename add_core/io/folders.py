@@ -14,7 +14,7 @@ from .collection import Collection, Landmarks
 from .contents import Shape
 from .files import StrPath, file_path, load_shape
 from .formats import extensions
-from .landmark_files import find_landmarks, find_symmetry
+from .landmark_files import find_landmarks, find_pairs, find_symmetry
 from .layouts import Layout, Member, layout_of, whereabouts
 
 
@@ -24,7 +24,8 @@ def open_collection(path: StrPath, *, only: str = "*", neutral: int | None = Non
     Recognises FAUST's registrations (tr_reg_000.ply, …; also their folder training/registrations from further up),
     SCAPE (mesh000.ply, …) and TOSCA (cat0.off, .mat or .vert, …) by their file names, with the customary splits; any
     other folder is taken as it is. Shapes correspond vertex by vertex if they share their faces; otherwise through
-    files name.vts or name.map beside them or in a folder `corres` (see `landmark_files`). A mirror map is read from
+    files name.vts or name.map beside them or in a folder `corres`, or one_two.map in a folder `groundtruth` as with
+    SHREC'19 (see `landmark_files`). A mirror map is read from
     symmetry.txt. Shapes are read when they are asked for, and the last few are kept.
 
     only : a pattern that file names without extension must fit, e.g. "cat*". Of several formats of a shape one counts.
@@ -40,6 +41,7 @@ def open_collection(path: StrPath, *, only: str = "*", neutral: int | None = Non
     layout = layout_of([file.stem for file in files])
     members = [_member(layout, file.stem) for file in files]
     numbered = find_landmarks(files)
+    paired = None if numbered else find_pairs(files)
     if neutral is not None:
         count_in("neutral", neutral, 0, len(files) - 1)
 
@@ -51,10 +53,14 @@ def open_collection(path: StrPath, *, only: str = "*", neutral: int | None = Non
         assert numbered is not None
         return numbered.of(index, make_shape(index).vertex_count)
 
+    def pairs(i: int, j: int) -> IntArray | None:
+        assert paired is not None
+        return paired.of(i, j, (make_shape(i).vertex_count, make_shape(j).vertex_count))
+
     return Collection(
         title=layout.title if layout else folder.name,
         names=tuple(member.name for member in members),
-        symmetry=None if numbered else _symmetry(folder, None if neutral is None else make_shape(neutral)),
+        symmetry=None if numbered or paired else _symmetry(folder, None if neutral is None else make_shape(neutral)),
         subjects=_all_or_none([member.subject for member in members]),
         poses=_all_or_none([member.pose for member in members]),
         training=_training(members),
@@ -64,6 +70,7 @@ def open_collection(path: StrPath, *, only: str = "*", neutral: int | None = Non
         licence=layout.licence if layout else "",
         make_shape=make_shape,
         landmarks=None if numbered is None else landmarks,
+        pairs=None if paired is None else pairs,
     )
 
 

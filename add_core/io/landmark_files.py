@@ -2,6 +2,7 @@
 
 name.vts : line k holds the vertex of shape `name` at place k of a template, as with the remeshed FAUST and SCAPE.
 name.map : line v holds the place of the template at which vertex v of shape `name` lies.
+one_two.map : line v holds the vertex of shape `two` for vertex v of shape `one`, as with SHREC'19.
 symmetry.txt (or .vts, .map; also sym.…) : line v holds the mirror image of vertex v, if all shapes share their faces.
 All count from 1, unless a 0 occurs in any of a collection's files.
 """
@@ -21,6 +22,7 @@ from .contents import indices
 from .text import float_rows, lines_of
 
 _FOLDERS = (".", "corres", "../corres", "../corr", "../vts", "../maps")
+_PAIRS = (*_FOLDERS, "groundtruth", "../groundtruth")
 _KINDS = (".vts", ".map")
 _SYMMETRY = ("symmetry", "sym")
 
@@ -48,6 +50,50 @@ class LandmarkFiles:
         numbers = [_column(path) for path in self.paths]
         base = min(int(column.min()) for column in numbers) > 0
         return tuple(read_only(column - base) for column in numbers)
+
+
+@dataclass(frozen=True, eq=False)
+class PairFiles:
+    """Correspondence files of pairs of shapes, each named after both: from the first to the second."""
+
+    shapes: tuple[Path, ...]
+    paths: dict[tuple[int, int], Path]
+
+    def of(self, i: int, j: int, vertex_counts: tuple[int, int]) -> IntArray | None:
+        """(n_i,): the vertex of shape j for each of shape i, −1 where there is none; None without a file.
+
+        Counted from 1 (0 stands for none), or from 0 if the file reaches no further than that and names vertex 0.
+        Raises ShapeFileError if it has not one line a vertex or names one that shape j lacks.
+        """
+        path = self.paths.get((i, j))
+        if path is None:
+            return None
+        numbers = _column(path)
+        if len(numbers) != vertex_counts[0]:
+            raise ShapeFileError(
+                f"{path}: holds {len(numbers)} lines, but {self.shapes[i].stem} has {vertex_counts[0]} vertices."
+            )
+        if numbers.max() > vertex_counts[1]:
+            raise ShapeFileError(
+                f"{path}: names vertex {numbers.max()}, but {self.shapes[j].stem} has {vertex_counts[1]}."
+            )
+        first = int(numbers.min() > 0 or numbers.max() == vertex_counts[1])
+        return read_only(np.asarray(numbers - first))
+
+
+def find_pairs(shapes: tuple[Path, ...]) -> PairFiles | None:
+    """The files one_two.map of any two of the `shapes`, beside them or in a folder `groundtruth`; None without any."""
+    for folder in _PAIRS:
+        present = {path.name for path in (shapes[0].parent / folder).glob("*_*.map")}
+        paths = {
+            (i, j): one.parent / folder / f"{one.stem}_{two.stem}.map"
+            for i, one in enumerate(shapes)
+            for j, two in enumerate(shapes)
+            if present and f"{one.stem}_{two.stem}.map" in present
+        }
+        if paths:
+            return PairFiles(shapes, paths)
+    return None
 
 
 def find_landmarks(shapes: tuple[Path, ...]) -> LandmarkFiles | None:

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
+from .._check import positive
 from ..errors import ParameterError
 from ..io import Collection
 from .architectures import SPECIFICATIONS, build_network, default_alphas
@@ -53,6 +54,8 @@ def train(
     task = _task_of(data)
     if architecture not in SPECIFICATIONS:
         raise ParameterError(f"architecture must be one of {', '.join(SPECIFICATIONS)}, but it is {architecture!r}.")
+    if minutes is not None:
+        positive("minutes", minutes)  # before inputs are made, which takes long
     made = InputRecipe(alphas=default_alphas(architecture)) if recipe is None else recipe
     shapes = [*task.training, *task.validation]
     prepared = prepare(
@@ -63,13 +66,12 @@ def train(
         workers=workers,
         report=None if report is None else lambda name, done, total: report(_prepared(name, done, total)),
     )
-    size = 1 + max(int(np.max(shape.places)) for shape in shapes)
     network = build_network(
         architecture,
         alphas=made.alphas,
         angles=made.angles,
         splines=made.splines,
-        reference_size=size if task.reference is None else task.reference.vertex_count,
+        reference_size=_classes(task),
         layers=layers,
     )
     chosen = settings or TrainingSettings()
@@ -94,6 +96,13 @@ def train(
     if minutes is not None:
         chosen = within(minutes, chosen, Path(folder), run)
     return run(chosen, Path(folder), report)
+
+
+def _classes(task: LearningTask) -> int:
+    """Vertices of the reference shape, or places that the shapes share."""
+    if task.reference is not None:
+        return task.reference.vertex_count
+    return 1 + max(int(np.max(shape.places)) for shape in [*task.training, *task.validation])
 
 
 def _task_of(data: Collection | LearningTask | Sequence[TrainingShape]) -> LearningTask:

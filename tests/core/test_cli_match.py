@@ -117,6 +117,9 @@ def test_an_archive_holds_matches_and_errors_before_and_after_refinement(two, tm
     truth.write_text("one\n", encoding="utf-8")
     run("match", first, second, *options, *FAST, "-o", written, status=2)
     assert "is not a list of vertex numbers" in capsys.readouterr().err
+    truth.write_text("", encoding="utf-8")
+    run("match", first, second, *options, *FAST, "-o", written, status=2)
+    assert "truth must have shape (162,), but it has (0,)" in capsys.readouterr().err
 
 
 def test_symmetry_writes_the_mirror_image_of_every_vertex(tmp_path, monkeypatch, capsys):

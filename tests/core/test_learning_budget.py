@@ -4,7 +4,7 @@ import pytest
 
 from add_core.errors import ParameterError
 from add_core.io import humans
-from add_core.learning import LearningTask, TrainingSettings
+from add_core.learning import LearningTask, TrainingSettings, train
 from add_core.learning import budget as budget_module
 from add_core.learning.budget import TRIAL, within
 
@@ -48,6 +48,9 @@ def test_there_is_always_time_for_one_validation(monkeypatch, tmp_path):
 def test_no_time_at_all_is_a_mistake(tmp_path):
     with pytest.raises(ParameterError, match="minutes must be"):
         within(0, TrainingSettings(), tmp_path, lambda *_: None)
+    people = LearningTask.of(humans(), most=2)
+    with pytest.raises(ParameterError, match="minutes must be"):
+        train(people, tmp_path, minutes=-1.0, report=lambda event: pytest.fail("No inputs are made before."))
 
 
 def test_a_few_shapes_are_spread_over_all_people_and_keep_a_person_for_validation():

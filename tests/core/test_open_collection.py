@@ -214,3 +214,51 @@ def test_matlab_files_without_a_surface_are_explained(tmp_path):
     (tmp_path / "d.vert").write_text("0 0 0\n1 0 0\n0 1 0\n")
     with pytest.raises(ShapeFileError, match=r"needs its faces in d\.tri beside it"):
         load_shape(tmp_path / "d.vert")
+
+
+@pytest.mark.parametrize("base", [0, 1])
+@pytest.mark.parametrize("place", [".", "../groundtruth", "../corres"])
+def test_map_files_of_pairs_lead_from_the_first_to_the_second(tmp_path, base, place):
+    """SHREC'19 has a file for each pair that it compares, and none for the others."""
+    shapes, numbers = zip(*(_shuffled(rectangle(2.0, 1.0, n=6), seed) for seed in (1, 2)), strict=True)
+    folder = tmp_path / "off"
+    folder.mkdir()
+    for name, mesh in zip(("1", "2"), shapes, strict=True):
+        save_shape(mesh, folder / f"{name}.off")
+    expected = numbers[1][np.argsort(numbers[0])]
+    write_column(folder / place / "1_2.map", expected + base)
+    collection = open_collection(tmp_path if place != "." else folder)
+    assert_array_equal(collection.correspondence(0, 1), expected)
+    assert_array_equal(collection.correspondence(1, 1), np.arange(91))
+    assert collection.symmetry is None
+    with pytest.raises(ParameterError, match="2 and 1 have different faces and no correspondence file"):
+        collection.correspondence(1, 0)
+
+
+@pytest.mark.parametrize(
+    ("lines", "complaint"),
+    [
+        ([1, 2, 3], "a_b.map: holds 3 lines, but a has 4 vertices"),
+        ([1, 2, 3, 5], "a_b.map: names vertex 5, but b has 4"),
+        ([1, 2, 3, -1], "a_b.map: holds a negative number"),
+    ],
+)
+def test_wrong_files_of_pairs_are_explained(tmp_path, lines, complaint):
+    for name in "ab":
+        save_shape(rectangle(1.0, 1.0, n=1), tmp_path / f"{name}.off")
+    write_column(tmp_path / "a_b.map", lines)
+    with pytest.raises(ShapeFileError, match=complaint):
+        open_collection(tmp_path).correspondence(0, 1)
+
+
+def test_a_zero_among_numbers_that_count_from_one_is_no_counterpart(tmp_path):
+    for name in "ab":
+        save_shape(rectangle(1.0, 1.0, n=1), tmp_path / f"{name}.off")
+    write_column(tmp_path / "a_b.map", [4, 0, 1, 2])
+    assert_array_equal(open_collection(tmp_path).correspondence(0, 1), [3, -1, 0, 1])
+
+
+def test_a_collection_takes_one_number_at_a_time(tmp_path):
+    save_shape(rectangle(1.0, 1.0, n=1), tmp_path / "a.off")
+    with pytest.raises(ParameterError, match=r"index must be the number of one shape, but it is slice\(0, 1, None\)"):
+        open_collection(tmp_path)[0:1]
