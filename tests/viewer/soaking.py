@@ -255,7 +255,7 @@ class Soaker:
         QTest.keyClick(self.window, Qt.Key.Key_P, CONTROL | SHIFT)
         QTest.keyClicks(palette.field, self._random.choice(("wire", "theta", "log", "zzz")))
         QTest.keyClick(palette.field, self._random.choice((Qt.Key.Key_Return, Qt.Key.Key_Escape)))
-        palette.close_quietly()
+        palette.leave()
 
     def _panels(self) -> None:
         if self.session.state.shapes:

@@ -39,7 +39,7 @@ def test_letters_that_are_shortcuts_elsewhere_are_letters_here(person, palette, 
 
 
 def test_arrows_choose_and_escape_leaves_the_picks_alone(person, palette, qtbot):
-    palette.close_quietly()
+    palette.leave()
     person.open()
     person.session.pick(100)
     qtbot.keyClick(person.window, Qt.Key.Key_P, CONTROL_SHIFT)
