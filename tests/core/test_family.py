@@ -172,6 +172,16 @@ def test_a_script_without_a_main_guard_runs_once(tmp_path):
     assert done.stderr == ""
 
 
+@pytest.mark.skipif(not Path("/proc/self/status").exists(), reason="needs Linux")
+def test_a_worker_does_not_count_the_memory_of_whoever_started_it():
+    """`ru_maxrss` of a process starts at its parent's peak: a caller with large arrays made every worker look large."""
+    ballast = np.ones(60_000_000)
+    said = "from add_core.spectra.worker import _peak_megabytes; print(_peak_megabytes())"
+    environment = os.environ | {"PYTHONPATH": str(ROOT)}
+    done = subprocess.run([sys.executable, "-c", said], capture_output=True, text=True, env=environment, check=True)
+    assert 10 < float(done.stdout) < ballast.nbytes / 2**20
+
+
 def test_it_runs_in_a_thread():
     found = []
     thread = threading.Thread(target=lambda: found.append(small_family(workers=2)))
