@@ -231,7 +231,7 @@ class ShapeView(QWidget):
         small = width < _SMALL.width() or height < _SMALL.height()
         self.colour_bar.show_small(small, max(10 * GRID, width - 2 * gap))
         self.label.show_small(small)
-        self.canvas.leave_below(self.colour_bar.height() if small else 0)
+        self.canvas.leave_room(*((self.label.height(), self.colour_bar.height()) if small else (0, 0)))
         self.label.setFixedWidth(max(40, min(400, width - 2 * gap - self._room_right)))
         self.triad.setVisible(not small)
         self.label.move(gap, gap)

@@ -52,18 +52,18 @@ class OrbitCamera:
         right = np.cross(self._up, eye) / max(cos(above), 1e-9)
         return np.stack([right, np.cross(eye, right), eye])
 
-    def fit(self, points: FloatArray, aspect: float, below: float = 0.0) -> None:
+    def fit(self, points: FloatArray, aspect: float, above: float = 0.0, below: float = 0.0) -> None:
         """Move so that all `points` (n, 3) lie in a picture of this width / height, with a margin.
 
-        below : share of the picture's height, at its lower edge, that stays free.
+        above, below : shares of the picture's height, at its edges, that stay free.
         """
         seen = points @ self.axes.T
         low, high = seen.min(axis=0), seen.max(axis=0)
         self.focal = 0.5 * (low + high) @ self.axes
         width, height, depth = high - low
-        half = 0.5 * _MARGIN * max(height / (1.0 - below), width / aspect, 1e-9)
+        half = 0.5 * _MARGIN * max(height / (1.0 - above - below), width / aspect, 1e-9)
         self.distance = half / tan(radians(VIEW_ANGLE / 2)) + 0.5 * depth
-        self.pan(0.0, 0.5 * below)
+        self.pan(0.0, 0.5 * (below - above))
 
     def rotate(self, dx: float, dy: float) -> None:
         """Turn by degrees; the elevation stops short of the poles."""

@@ -40,7 +40,7 @@ class OrbitView(View3D):
         self._last = QPointF()
         self._dragging = False
         self._fitted = True
-        self._below = 0
+        self._room = (0, 0)
         self._hovered = -1
 
     @property
@@ -63,15 +63,15 @@ class OrbitView(View3D):
         """Move so that the whole shape is in view, from the same side."""
         if self.extent is not None:
             height = max(self.height(), 1)
-            below = min(self._below / height, 0.5)
-            self.camera_model.fit(self.extent, max(self.width(), 1) / height, below)
+            above, below = (min(pixels / height, 0.3) for pixels in self._room)
+            self.camera_model.fit(self.extent, max(self.width(), 1) / height, above, below)
         self._fitted = True
         self._place_camera()
 
-    def leave_below(self, pixels: int) -> None:
-        """Keep so much room free below the shape, for a label, where the view is fitted to it."""
-        if pixels != self._below:
-            self._below = pixels
+    def leave_room(self, above: int, below: int) -> None:
+        """Keep so many pixels free above and below the shape, for labels, where the view is fitted to it."""
+        if (above, below) != self._room:
+            self._room = (above, below)
             if self._fitted:
                 self.fit()
 
