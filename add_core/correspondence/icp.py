@@ -13,6 +13,7 @@ def icp(start: FunctionalMap, *, iterations: int = 10) -> FunctionalMap:
 
     Each step matches points by the map, takes the map of these matches, and replaces it by the nearest one with
     orthonormal columns or rows: isometries have such maps. It ends early where the matches no longer change.
+    start : the map to begin with; the result has its size. iterations : steps at most.
     Raises ParameterError if `iterations` is out of range.
     """
     found = start

@@ -59,7 +59,10 @@ def without_unit(queries: FloatArray, targets: FloatArray) -> tuple[FloatArray, 
 
 
 def mutual_matches(queries: ArrayLike, targets: ArrayLike, *, method: str = "exact") -> MutualMatches:
-    """Pairs that are nearest to each other both ways; queries (q, d) and targets (n, d) as for `nearest_matches`."""
+    """Pairs that are nearest to each other both ways.
+
+    queries (q, d), targets (n, d), method : as for `nearest_matches`, which also says what is raised.
+    """
     forth = nearest_matches(queries, targets, method=method)
     back = nearest_matches(targets, queries, method=method)
     agreeing = np.flatnonzero(back[forth] == np.arange(len(forth)))

@@ -86,6 +86,7 @@ def coordinate_colors(shape: TriangleMesh | PointCloud) -> FloatArray:
     """(n, 3), 0 to 1: a vertex's position in the shape's bounding box as red, green and blue.
 
     The box is that of the principal axes, so the colours turn with the shape: the longest axis runs through green.
+    Raises ParameterError for what is no shape.
     """
     instance_of("shape", shape, TriangleMesh, PointCloud)
     centred = shape.vertices - shape.vertices.mean(axis=0)

@@ -28,10 +28,12 @@ def zoomout(
     Matches are turned into a functional map of k eigenfunctions, that into matches, and k grows by `step`: what low
     frequencies agree upon guides the higher ones.
 
+    spectrum_1, spectrum_2 : of the shape that functions come from, and of the one whose points are matched to it.
     initial : (n2,), vertices of shape 1 for those of shape 2, raw as they come; soft, (n2, n1); or a FunctionalMap,
         from whose own size the map then grows.
     start, stop : first and last number of eigenfunctions, at most those that the spectra hold (both are cut to that).
     samples : points of shape 2 on which the steps in between are made; the first and the last use all. None for all.
+    seed : which points they are.
     Returns the map of `stop` eigenfunctions; its `match_21` (n2,) is the refined correspondence.
     Raises ParameterError if an argument is out of range or the correspondence does not fit.
     """

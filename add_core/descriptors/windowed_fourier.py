@@ -46,6 +46,7 @@ def heat_window(spectrum: Spectrum, *, spread: float = 1.0) -> FloatArray:
     """A window ĝ_k = exp(−t λ_k), scaled to length 1, (K,), that reaches over `spread` times a mean wavelength.
 
     spread : > 0, in units of the geometric mean of the shortest and longest wavelength of the spectrum.
+    Raises ParameterError if it is not positive, or the spectrum holds no non-zero eigenvalue.
     """
     middle = np.sqrt(lowest_nonzero_eigenvalue(spectrum) * spectrum.eigenvalues[-1])
     values = np.exp(-(positive("spread", spread) ** 2) * spectrum.eigenvalues / middle)

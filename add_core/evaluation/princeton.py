@@ -116,9 +116,10 @@ def match_errors(
 
 
 def princeton_curve(errors: ArrayLike, *, radii: ArrayLike = RADII, symmetric: bool = False) -> PrincetonCurve:
-    """The curve of given errors (q,), as from `match_errors`; NaN is left out.
+    """The curve of given errors (q,), ÷ √area as from `match_errors`; NaN is left out.
 
-    Raises ParameterError if no error is known.
+    radii : (r,), ascending, in the errors' unit. symmetric : what the errors are of, said along with the curve.
+    Raises ParameterError if no error is known or the radii do not ascend.
     """
     values, reach = numbers("errors", errors).ravel(), _checked_radii(radii)
     values = values[~np.isnan(values)]

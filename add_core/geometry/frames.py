@@ -52,6 +52,7 @@ def principal_curvatures(shape: TriangleMesh | PointCloud) -> PrincipalFrames:
 
     Boundaries, several components and faces without area are allowed. Faces turned against their neighbours are
     taken the way most of their piece is turned, and a warning says so: θ would run the other way on them.
+    Raises ParameterError for what is no shape.
     """
     instance_of("shape", shape, TriangleMesh, PointCloud)
     return _cloud_frames(shape) if isinstance(shape, PointCloud) else _mesh_frames(shape)

@@ -75,6 +75,7 @@ def inspect(shape: TriangleMesh | PointCloud) -> ShapeReport:
     """Counts, measures and defects of `shape`. Nothing is changed; `repair` mends what can be mended safely.
 
     A boundary or several components are no defects. Faces count as without area if rounding made their normal.
+    Raises ParameterError for what is no shape.
     """
     instance_of("shape", shape, TriangleMesh, PointCloud)
     lower, upper = (tuple(map(float, bound(shape.vertices, axis=0))) for bound in (np.min, np.max))

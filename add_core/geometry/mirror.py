@@ -18,6 +18,7 @@ def mirror_map(mesh: TriangleMesh) -> IntArray | None:
     mesh : in a pose that is symmetric about some plane, not necessarily exactly: the pose only says where to begin.
         From there the map is followed from triangle to triangle, so that it is exact, and holds for every pose.
     The plane is sought across the principal axes and the coordinate axes. Vertices without a face map to themselves.
+    Raises ParameterError for what is no mesh; the vertices of a cloud have no triangles to follow.
     """
     instance_of("mesh", mesh, TriangleMesh)
     opposite = _opposite_corners(mesh)

@@ -51,6 +51,7 @@ def subsample(shape: TriangleMesh | PointCloud, count: int, *, start: int = 0) -
     """A cloud of `count` farthest points of the shape, with its (area-weighted vertex) normals and its vertex
     numbers.
 
+    start : the vertex taken first. Every smaller sample from it is the beginning of a larger one.
     Where a chosen vertex of a mesh has no normal (all faces around it are flat), the cloud is left without normals.
 
     Raises ParameterError as `farthest_points` does.

@@ -73,7 +73,8 @@ def compute_spectra(
     """The `count` smallest eigenpairs for every α and the angles θ_l = π l / L, l = 0 … L − 1.
 
     alphas : degrees of anisotropy ≥ 0; 0 is isotropic, the same for every angle, and appears once, with θ = 0.
-    angles : L ≥ 1. count : K, from 1 to the number of vertices that have area.
+    angles : L ≥ 1. count : K, from 1 to the number of vertices that have area (`shape.has_mass`).
+    conductivity : "curvature", eq. (9), or "constant", eq. (10); see `AnisotropicLaplacian`.
     progress : called as progress(done, total) in the calling thread, at the start and after every operator. Returning
         False (or raising) stops the work at once and raises Cancelled (or passes the exception on); nothing is kept
         then.
