@@ -7,6 +7,7 @@ from scipy.sparse import coo_array, csr_array
 from scipy.sparse.csgraph import connected_components, dijkstra
 
 from .._check import BoolArray, FloatArray, IntArray
+from .distinct import is_among, sorted_distinct
 from .normals import reflected_cosines
 
 DETOUR = 10.0
@@ -71,9 +72,9 @@ def _lengths_and_costs(
 
 def _held_by_both(ends: IntArray, stars: IntArray, count: int) -> BoolArray:
     """(e,): whether each end is the centre of a fan that reaches the other."""
-    reached = np.unique(np.repeat(stars[:, 0], 2) * count + stars[:, 1:].ravel())
+    reached = sorted_distinct(np.repeat(stars[:, 0], 2) * count + stars[:, 1:].ravel())
     there, back = ends[:, 0] * count + ends[:, 1], ends[:, 1] * count + ends[:, 0]
-    return np.asarray(np.isin(there, reached) & np.isin(back, reached))
+    return is_among(there, reached) & is_among(back, reached)
 
 
 def _grown(taken: BoolArray, ends: IntArray, length: FloatArray, reach: FloatArray, doubtful: IntArray) -> BoolArray:

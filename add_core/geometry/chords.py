@@ -8,6 +8,7 @@ from scipy.sparse.csgraph import connected_components, dijkstra
 
 from .._check import FloatArray, IntArray
 from .cloud import PointCloud
+from .distinct import sorted_distinct
 
 
 def chord_graph(cloud: PointCloud) -> csr_array:
@@ -41,7 +42,7 @@ def chord_graph(cloud: PointCloud) -> csr_array:
 
 def _pattern(rows: IntArray, columns: IntArray, count: int) -> csr_array:
     """(count, count): 1 at the given places."""
-    entries = np.unique(rows * count + columns)
+    entries = sorted_distinct(rows * count + columns)
     return csr_array(coo_array((np.ones(len(entries)), (entries // count, entries % count)), shape=(count, count)))
 
 

@@ -57,7 +57,9 @@ def build_fans(points: FloatArray, normals: FloatArray, planes: TangentPlanes, d
     sound = ~bridging_triangles(stars, sure, points[first], normals[first], spacing=spacing)
     weights = _weights(stars, flat, len(first))
     triangles, weights = _shared_by_duplicates(stars[sound], weights[sound], distinct)
-    isolated = np.setdiff1d(np.arange(len(distinct.place)), triangles)
+    touched = np.zeros(len(distinct.place), dtype=bool)
+    touched[triangles] = True
+    isolated = np.flatnonzero(~touched)
     if 0 < len(isolated) < len(distinct.place):  # with no triangle at all an error follows, which says more
         _log.warning("%d of %d points touch no triangle (first: %d).", len(isolated), len(distinct.place), isolated[0])
     edges = arc_edges(points, normals, triangles)

@@ -11,6 +11,7 @@ from scipy.sparse import csr_array
 from scipy.sparse.csgraph import connected_components
 
 from .._check import BoolArray, FloatArray, IntArray, faces_array, points_array, read_only
+from .distinct import sorted_distinct
 
 FLAT_FACE = 1e-14
 """A face whose area is below this share of its longest edge squared has no usable normal: rounding made it."""
@@ -167,7 +168,7 @@ class TriangleMesh:
     def is_oriented(self) -> bool:
         """Whether no two faces with area run along an edge in the same sense, as on an oriented manifold."""
         keys = _half_edges(self.faces[self.has_area]) @ [self.vertex_count, 1]
-        return len(np.unique(keys)) == len(keys)
+        return len(sorted_distinct(keys)) == len(keys)
 
 
 def _half_edges(faces: IntArray) -> IntArray:

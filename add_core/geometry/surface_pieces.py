@@ -11,6 +11,7 @@ from scipy.sparse import csr_array
 from scipy.sparse.csgraph import connected_components
 
 from .._check import BoolArray, FloatArray, IntArray
+from .distinct import sorted_distinct
 from .mesh import TriangleMesh
 from .pair_distances import edges_and_crossings
 
@@ -69,7 +70,7 @@ def surface_pieces(mesh: TriangleMesh) -> Iterator[SurfacePiece]:
 
 def _piece(mesh: TriangleMesh, faces: IntArray, welded: IntArray, has_label: BoolArray) -> SurfacePiece:
     node_of = np.full(mesh.vertex_count, -1, dtype=np.int64)
-    representatives = np.unique(faces)
+    representatives = sorted_distinct(faces)
     node_of[representatives] = np.arange(len(representatives))
     members = np.flatnonzero(has_label[welded] & (node_of[welded] >= 0))
     nodes = node_of[faces]
