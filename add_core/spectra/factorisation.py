@@ -9,6 +9,7 @@ a solution before it trusts one.
 from __future__ import annotations
 
 import logging
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -71,10 +72,18 @@ class Factorisation:
         return np.take(x, self.tree.places, axis=0)
 
 
-def factorise(tree: FrontTree, values: FloatArray, shift: float, *, count: bool = False) -> Factorisation:
+def factorise(
+    tree: FrontTree,
+    values: FloatArray,
+    shift: float,
+    *,
+    count: bool = False,
+    progress: Callable[[int, int], None] = lambda done, total: None,
+) -> Factorisation:
     """Factorise A − shift I, A given by `values` (nnz,) on the pattern of the tree.
 
-    count : also count the eigenvalues below the shift, at about a third more time.
+    count : also count the eigenvalues below the shift, at about a third more time. progress : told how many groups of
+        fronts of how many are done; what it raises ends the factorisation.
     Raises numpy.linalg.LinAlgError if what a front eliminates is singular.
     """
     shifted = values.copy()
@@ -82,7 +91,8 @@ def factorise(tree: FrontTree, values: FloatArray, shift: float, *, count: bool 
     inverses, couplings = [], []
     remainders: list[FloatArray] = []
     negatives = 0
-    for group in tree.groups:
+    for number, group in enumerate(tree.groups):
+        progress(number, len(tree.groups))
         front = _assemble(group, shifted, remainders)
         s = group.size
         pivot, border = front[:, :s, :s], front[:, s:, :s]

@@ -2,23 +2,20 @@
 
 from __future__ import annotations
 
-from collections import OrderedDict
-from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.sparse import csc_array
-from scipy.sparse.linalg import SuperLU, splu
 
 from .._check import BoolArray, FloatArray, finite, instance_of, numbers, positive, positive_array, vertex_index
 from ..errors import ParameterError
 from ..operators import AnisotropicLaplacian
+from .heat_factors import Factor, Factors, Ordering, Progress
 from .krylov import KrylovBasis, workspace
 
 TOLERANCE = 1e-5
 """Relative accuracy of a kernel in the mass-weighted norm, and of the heat left at its source, by default."""
 _FACTOR_BYTES = 256 * 2**20
-_BYTES_PER_ENTRY = 12
 
 
 class HeatFlow:
@@ -32,16 +29,26 @@ class HeatFlow:
 
     What is spread evenly over a connected piece is split off first: its share is known exactly, so heat is
     conserved to rounding. Not safe to call from two threads at once.
+
+    progress : told between the steps of a factorisation how many of how many are done; what it raises ends the call
+        and leaves the flow as it was.
     """
 
-    def __init__(self, laplacian: AnisotropicLaplacian, *, tolerance: float = TOLERANCE) -> None:
+    def __init__(
+        self,
+        laplacian: AnisotropicLaplacian,
+        *,
+        tolerance: float = TOLERANCE,
+        progress: Progress = lambda done, total: None,
+    ) -> None:
         instance_of("laplacian", laplacian, AnisotropicLaplacian, remedy="AnisotropicLaplacian(shape) makes one.")
         self.laplacian, self.tolerance = laplacian, positive("tolerance", tolerance)
+        self._progress = progress
         self._massive: BoolArray = laplacian.mass > 0
         self._root = np.sqrt(np.where(self._massive, laplacian.mass, 1.0))
         # One factorisation follows the kernel: fresh memory for each costs a fifth of its time. Signatures come
         # back to theirs.
-        self._latest, self._angles = _Factors(limit=0), _Factors(limit=_FACTOR_BYTES)
+        self._latest, self._angles = Factors(progress, limit=0), Factors(progress, limit=_FACTOR_BYTES)
         self._basis: tuple[tuple[int, float, float], KrylovBasis] | None = None
         self._workspace = workspace(len(self._root))
 
@@ -56,7 +63,7 @@ class HeatFlow:
         gamma = 10.0 ** np.floor(np.log10(time)) / 4
         basis = self._basis_at(source, theta, gamma)
         column = np.empty(len(self._root))
-        column[self.laplacian.pattern.elimination.order] = basis.decay(time, tolerance=self.tolerance)
+        column[self._ordering.order] = basis.decay(time, tolerance=self.tolerance)
         return column / self._root * self._massive
 
     def autodiffusion(self, source: int, *, thetas: ArrayLike, times: ArrayLike) -> FloatArray:
@@ -93,62 +100,14 @@ class HeatFlow:
             self._basis = key, self._new_basis(source, factor, self._workspace)
         return self._basis[1]
 
-    def _new_basis(self, source: int, factor: _Factor, room: FloatArray) -> KrylovBasis:
-        elimination, pieces = self.laplacian.pattern.elimination, self.laplacian.pattern.pieces
+    @cached_property
+    def _ordering(self) -> Ordering:
+        return Ordering.of(self.laplacian.pattern, self._progress)
+
+    def _new_basis(self, source: int, factor: Factor, room: FloatArray) -> KrylovBasis:
+        elimination, pieces = self._ordering, self.laplacian.pattern.pieces
         piece = np.where(pieces == pieces[source], self._root, 0.0)[elimination.order]
         start = np.zeros(len(piece))
         start[elimination.position[source]] = 1 / self._root[source]
         even = piece / np.linalg.norm(piece)
         return KrylovBasis(factor.apply, start, rate=1 / factor.gamma, kernel=even, workspace=room)
-
-
-class _Factors:
-    """The factorisations used last, as many as fit into `limit` bytes, and at least one."""
-
-    def __init__(self, *, limit: int) -> None:
-        self._limit = limit
-        self._kept: OrderedDict[tuple[float, float], _Factor] = OrderedDict()
-
-    def at(self, laplacian: AnisotropicLaplacian, theta: float, gamma: float, root: FloatArray) -> _Factor:
-        """The one at θ and γ, kept or new."""
-        key = (theta, gamma)
-        if key not in self._kept:
-            self._make_room()
-            self._kept[key] = _Factor.of(laplacian, theta, gamma, root)
-        self._kept.move_to_end(key)
-        return self._kept[key]
-
-    def _make_room(self) -> None:
-        sizes = [factor.bytes for factor in self._kept.values()]
-        while sizes and sum(sizes) + sizes[-1] > self._limit:
-            self._kept.popitem(last=False)
-            sizes.pop(0)
-
-
-@dataclass(frozen=True, eq=False)
-class _Factor:
-    """(I + γA)⁻¹ for A = S^{-1/2} W S^{-1/2}, on vectors in elimination order."""
-
-    lu: SuperLU
-    gamma: float
-    root: FloatArray
-
-    @classmethod
-    def of(cls, laplacian: AnisotropicLaplacian, theta: float, gamma: float, root: FloatArray) -> _Factor:
-        pattern, elimination = laplacian.pattern, laplacian.pattern.elimination
-        values = gamma * laplacian.stiffness_values(theta)
-        values[pattern.diagonal] += root**2
-        n = pattern.vertex_count
-        matrix = csc_array((values[elimination.entries], elimination.indices, elimination.indptr), shape=(n, n))
-        # Positive definite, so no pivoting; a surface's supernodes are small, hence narrow panels.
-        lu = splu(
-            matrix, permc_spec="NATURAL", diag_pivot_thresh=0.0, relax=4, panel_size=1, options={"SymmetricMode": True}
-        )
-        return cls(lu, gamma, root[elimination.order])
-
-    @property
-    def bytes(self) -> int:
-        return _BYTES_PER_ENTRY * int(self.lu.nnz)
-
-    def apply(self, vector: FloatArray) -> FloatArray:
-        return np.asarray(self.root * self.lu.solve(self.root * vector))

@@ -8,6 +8,7 @@ every angle and every anisotropy share it.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, fields
 from hashlib import blake2b
 from pathlib import Path
@@ -50,23 +51,31 @@ class Dissection:
             return cls(**{field.name: read_only(arrays[field.name]) for field in fields(cls)})
 
 
-def known_dissection(indptr: IntArray, indices: IntArray) -> Dissection:
+Progress = Callable[[int, int], None]
+
+
+def known_dissection(
+    indptr: IntArray, indices: IntArray, *, progress: Progress = lambda done, total: None
+) -> Dissection:
     """`nested_dissection`, remembered for the last few patterns: every pose of one connectivity has the same."""
     digest = blake2b(np.asarray(indptr, dtype=np.int64).tobytes(), digest_size=16)
     digest.update(np.asarray(indices, dtype=np.int64).tobytes())
     key = digest.digest()
     found = _known.pop(key, None)
-    found = nested_dissection(indptr, indices) if found is None else found
+    found = nested_dissection(indptr, indices, progress=progress) if found is None else found
     _known[key] = found
     while len(_known) > KEPT:
         _known.pop(next(iter(_known)), None)
     return found
 
 
-def nested_dissection(indptr: IntArray, indices: IntArray, *, leaf: int = 40) -> Dissection:
+def nested_dissection(
+    indptr: IntArray, indices: IntArray, *, leaf: int = 40, progress: Progress = lambda done, total: None
+) -> Dissection:
     """Dissect the graph of a symmetric sparse matrix into sets of at most about `leaf` vertices.
 
     indptr, indices : compressed rows of the pattern; entries on the diagonal do not matter.
+    progress : told how many vertices of how many have their place; what it raises ends the computation.
     The result depends on these arrays only, never on chance, on coordinates or on values.
     """
     n = len(indptr) - 1
@@ -76,8 +85,10 @@ def nested_dissection(indptr: IntArray, indices: IntArray, *, leaf: int = 40) ->
     places = _graph_places(indptr, indices)
     sets: list[IntArray] = []
     parents: list[int] = []
+    placed = 0
 
     def dissect(vertices: IntArray, tails: IntArray, heads: IntArray) -> int:
+        nonlocal placed
         children: list[int] = []
         own = vertices
         if len(vertices) > leaf:
@@ -88,6 +99,8 @@ def nested_dissection(indptr: IntArray, indices: IntArray, *, leaf: int = 40) ->
                 children.append(dissect(vertices[inside], *_subgraph(inside, tails, heads, len(vertices))))
         sets.append(own)
         parents.append(-1)
+        placed += len(own)
+        progress(placed, n)
         for child in children:
             parents[child] = len(sets) - 1
         return len(sets) - 1

@@ -9,7 +9,7 @@ from add_core.errors import ParameterError
 from add_core.geometry import TriangleMesh
 from add_core.geometry.shapes import cylinder, ellipsoid, sphere
 from add_core.operators import AnisotropicLaplacian
-from add_core.spectra import HeatFlow
+from add_core.spectra import HeatFlow, heat_factors
 
 THETA = 0.4
 
@@ -125,3 +125,36 @@ def test_vertices_without_mass_hold_no_heat():
 def test_bad_arguments_are_explained(laplacian, source, options, message):
     with pytest.raises(ParameterError, match=message):
         HeatFlow(laplacian).kernel(source, **{"theta": 0.0, "time": 0.1, **options})
+
+
+class Enough(Exception):
+    """Somebody who waited no longer does."""
+
+
+def test_large_shapes_take_fronts_and_find_the_same(laplacian, modes, monkeypatch):
+    monkeypatch.setattr(heat_factors, "MOST_SUPERLU", 0)
+    told = []
+    flow = HeatFlow(laplacian, progress=lambda done, total: told.append(done / total))
+    kernel = flow.kernel(30, theta=THETA, time=0.02)
+    exact = dense_kernel(modes, 0.02)[:, 30]
+    assert mass_norm(laplacian, kernel - exact) < 1e-5 * mass_norm(laplacian, exact)
+    stays = flow.autodiffusion(30, thetas=[THETA], times=[0.02])
+    assert_allclose(stays, [[exact[30]]], rtol=1e-5)
+    assert told[0] < 1 and max(told) == 1
+
+
+@pytest.mark.parametrize("most", [0, 10**6])
+def test_a_flow_whose_progress_raises_answers_the_next_time(laplacian, monkeypatch, most):
+    monkeypatch.setattr(heat_factors, "MOST_SUPERLU", most)
+    fresh = laplacian.with_alpha(7.0)
+    patience = [0]
+
+    def progress(done, total):
+        patience[0] -= 1
+        if patience[0] == -1:
+            raise Enough
+
+    flow = HeatFlow(fresh, progress=progress)
+    with pytest.raises(Enough):
+        flow.kernel(30, theta=THETA, time=0.02)
+    assert_allclose(flow.kernel(30, theta=THETA, time=0.02), HeatFlow(fresh).kernel(30, theta=THETA, time=0.02), rtol=1e-9)
