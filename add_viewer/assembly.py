@@ -69,6 +69,9 @@ CURVE_PAUSE = 180
 PICTURE_DEADLINE = 120_000
 """Milliseconds after which a picture that is not ready is given up."""
 
+LONG_WORK = {"kernel": "Computing heat …", "fields": "Computing the field …", "curves": "Computing curves …"}
+"""What the status line says about work of the thread that takes long, by lane."""
+
 _TITLES = {"humans": "People", "poses": "Poses", "dogs": "Dogs", "remeshed": "Remeshed", "clouds": "Point clouds"}
 
 
@@ -122,11 +125,18 @@ class Assembly:
         self.directions = DirectionsController(self.session, self.results, self.display, run, operators)
         self.curves = CurvesController(self.session, self.results, run, self._curve_delay, operators)
         self.window.open_requested.connect(self._open)
+        self.worker.progressed.connect(self._show_work)
+        self.window.cancel_requested.connect(self.worker.cancel)
         self.saving = Saving(self.window, write_atomically, curves_table, explain)
         self.figures = FigureExport(self.window, self.saving)
         self.recorder = Recorder(self.window, lambda: self.worker.is_idle)
         self.animations = AnimationExport(self.window, self.saving, self.recorder, run)
         self.saving.write_script = lambda: script_of(self.session.state, self.results.carried, WRITERS)
+
+    def _show_work(self, lane: str, share: float) -> None:
+        """Say how far long work of the thread is, unless something else is being said."""
+        if self.results.busy in ("", *LONG_WORK.values()):
+            self.results.set_busy(LONG_WORK.get(lane, ""), share if lane else None)
 
     def _keep(self, read: Read, session: Path | None) -> None:
         self._session_path = session

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from add_core.geometry import normalize
+from add_core.geometry import TriangleMesh, normalize
 from add_core.io import ShippedPlace, load_shape_and_fields, shipped_place
 
 from ..models.results import Results
@@ -96,6 +96,8 @@ def _read_shipped(place: ShippedPlace) -> OpenShape:
 
 def _open_shape(shape: Shape, *, key: str, reference: str, name: str) -> OpenShape:
     scaled = normalize(shape)
+    if isinstance(scaled, TriangleMesh):
+        scaled.vertex_normals  # noqa: B018 - found here, kept there: the window's thread must not look for them
     return OpenShape(key=key, reference=reference, name=name, shape=scaled, diameter=_ratio(shape, scaled))
 
 

@@ -8,6 +8,7 @@ from typing import Generic, TypeVar
 from add_core.operators import AnisotropicLaplacian, Conductivity
 from add_core.spectra import HeatFlow
 
+from ..models.long_work import go_on
 from ..models.shapes import OpenShape
 
 _Value = TypeVar("_Value")
@@ -52,7 +53,8 @@ class OperatorStore:
         key = (shape, conductivity, alpha, purpose)
         found = self._flows.get(key)
         if found is None:
-            found = self._flows.put(key, HeatFlow(self.laplacian(shape, conductivity, alpha), tolerance=ACCURACY))
+            laplacian = self.laplacian(shape, conductivity, alpha)
+            found = self._flows.put(key, HeatFlow(laplacian, tolerance=ACCURACY, progress=go_on))
         return found
 
     def _base(self, shape: OpenShape, conductivity: Conductivity) -> AnisotropicLaplacian:
@@ -63,6 +65,7 @@ class OperatorStore:
             frames = other.frames if other is not None else None
             built = AnisotropicLaplacian(shape.shape, alpha=0.0, conductivity=conductivity, frames=frames)
             found = self._bases.put(key, built)
+            go_on()  # seconds have passed if the shape is large
         return found
 
 

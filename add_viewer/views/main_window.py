@@ -14,6 +14,7 @@ from PySide6.QtWidgets import (
     QMainWindow,
     QMenu,
     QProgressBar,
+    QPushButton,
     QScrollArea,
     QStackedWidget,
     QVBoxLayout,
@@ -47,10 +48,12 @@ NEED_A_SHAPE = ("close", "script", "figure", "animation", "screenshot")
 class MainWindow(QMainWindow):
     """Puts the parts together and lets them show the models.
 
-    open_requested : a path or a shipped name that the person wants to see.
+    open_requested : a path or a shipped name that the person wants to see. cancel_requested : what the status line
+        tells the progress of shall end.
     """
 
     open_requested = Signal(str)
+    cancel_requested = Signal()
 
     def __init__(
         self, session: Session, results: Results, display: Display, settings: Settings, galleries: tuple[Gallery, ...]
@@ -123,13 +126,18 @@ class MainWindow(QMainWindow):
         self.hover_label, self.busy_label, self.progress = QLabel(), QLabel(), QProgressBar()
         self.progress.setFixedWidth(15 * GRID)
         self.progress.setTextVisible(False)
+        self.cancel = QPushButton("Cancel")
+        self.cancel.setToolTip("Stop this computation")
+        self.cancel.clicked.connect(self.cancel_requested)
         self.progress.hide()
+        self.cancel.hide()
         bar = self.statusBar()
         bar.setSizeGripEnabled(False)
         bar.setContentsMargins(GRID, 0, GRID, 0)
         bar.addWidget(self.hover_label, 1)
         bar.addPermanentWidget(self.busy_label)
         bar.addPermanentWidget(self.progress)
+        bar.addPermanentWidget(self.cancel)
 
     def _connect(self) -> None:
         self.session.active_changed.connect(self._show_active)
@@ -200,6 +208,7 @@ class MainWindow(QMainWindow):
         self.busy_label.setText(self.results.busy)
         self.progress.setVisible(bool(self.results.busy))
         share = self.results.progress
+        self.cancel.setVisible(share is not None)
         self.progress.setRange(0, 0 if share is None else 100)
         self.progress.setValue(0 if share is None else round(100 * share))
 

@@ -1,8 +1,11 @@
 """The background thread: per lane, the newest request wins."""
 
 import threading
+import time
 
 import pytest
+
+from add_viewer.models.long_work import Cancelled, go_on
 
 
 @pytest.fixture
@@ -72,3 +75,48 @@ def test_it_is_idle_once_everything_has_been_answered(worker, qtbot):
     qtbot.waitUntil(lambda: worker.is_idle, timeout=5000)
     assert 2 in answers
     assert isinstance(answers[-1], ZeroDivisionError)
+
+
+def test_work_that_asks_between_its_steps_ends_for_newer_and_begins_again_after_more_urgent(worker, qtbot):
+    answers, begun, gate = [], [], threading.Event()
+
+    def long_work(name):
+        begun.append(name)
+        gate.wait()
+        go_on()
+        return name
+
+    worker.submit("curves", lambda: long_work("old"), done=answers.append, failed=answers.append)
+    qtbot.waitUntil(lambda: begun == ["old"])
+    worker.submit("kernel", lambda: "urgent", done=answers.append, failed=answers.append)
+    gate.set()
+    qtbot.waitUntil(lambda: worker.is_idle)
+    assert (answers, begun) == (["urgent", "old"], ["old", "old"])
+    gate.clear()
+    worker.submit("curves", lambda: long_work("older"), done=answers.append, failed=answers.append)
+    qtbot.waitUntil(lambda: begun[-1] == "older")
+    worker.submit("curves", lambda: "newer", done=answers.append, failed=answers.append)
+    gate.set()
+    qtbot.waitUntil(lambda: worker.is_idle)
+    assert answers[2:] == ["newer"]
+
+
+def test_long_work_tells_how_far_it_is_and_can_be_cancelled(worker, qtbot, monkeypatch):
+    monkeypatch.setattr("add_viewer.tasks.worker.PATIENCE", 0.0)
+    told, failed = [], []
+
+    def endless():
+        while True:
+            go_on(1, 4)
+            time.sleep(0.001)
+
+    worker.progressed.connect(lambda lane, share: told.append((lane, share)))
+    worker.submit("kernel", endless, done=failed.append, failed=failed.append)
+    qtbot.waitUntil(lambda: ("kernel", 0.25) in told)
+    worker.cancel()
+    qtbot.waitUntil(lambda: told[-1] == ("", 0.0) and worker.is_idle)
+    assert isinstance(failed[0], Cancelled)
+    worker.submit("kernel", endless, done=failed.append, failed=failed.append)
+    qtbot.waitUntil(lambda: told[-1] == ("kernel", 0.25))
+    worker.stop()  # does not wait for ever
+    assert len(failed) == 1
