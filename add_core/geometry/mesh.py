@@ -167,7 +167,7 @@ class TriangleMesh:
     @cached_property
     def is_oriented(self) -> bool:
         """Whether no two faces with area run along an edge in the same sense, as on an oriented manifold."""
-        keys = _half_edges(self.faces[self.has_area]) @ [self.vertex_count, 1]
+        keys = _half_edges(self.faces[self.has_area]) @ np.array([self.vertex_count, 1])
         return len(sorted_distinct(keys)) == len(keys)
 
 
