@@ -33,6 +33,9 @@ _LEARNED = {
     "humans-madd3": DescriptorName(
         "humans-madd3", "mADD3", "Learned by the paper's network on people: sharp, and knows left from right."
     ),
+    "humans-madd4": DescriptorName(
+        "humans-madd4", "mADD4", "Learned on people: where on a reference person each point probably is."
+    ),
     "humans-osd": DescriptorName(
         "humans-osd", "OSD", "Optimal spectral descriptors: the best linear ones, learned on people, without direction."
     ),
@@ -65,5 +68,5 @@ def descriptor_name(name: str) -> DescriptorName:
         title = path.parent.name if path.stem in ("model", "best", "last", "checkpoint") else path.stem
         return DescriptorName(name, title, "Your own trained model.")
     shapes, _, method = name.rpartition("-")
-    title = f"{_METHODS.get(method, method)} ({shapes})" if shapes else name
+    title = f"{_METHODS.get(method, method)}, {shapes}" if shapes else name
     return DescriptorName(name, title, f"A descriptor learned on {shapes or 'shapes'}, which ships with the app.")

@@ -15,7 +15,7 @@ from ..models.descriptor_names import descriptor_name
 from ..models.insights import Telling
 from .theme import GRID, LIGHT, Theme
 
-_ROW, _LABEL, _NUMBER, _SCALE = 3 * GRID, 9 * GRID, 7 * GRID, 3 * GRID
+_ROW, _LABEL, _NUMBER, _SCALE = 3 * GRID, 12 * GRID, 7 * GRID, 3 * GRID
 
 
 class TellingBars(QWidget):

@@ -61,4 +61,4 @@ def test_a_trained_model_is_called_after_its_folder():
     assert descriptor_name("/runs/mine/model.safetensors").title == "mine"
     assert descriptor_name("/models/night.safetensors").title == "night"
     assert descriptor_name("humans-madd3").title == "mADD3"
-    assert descriptor_name("dogs-osd").title == "OSD (dogs)"
+    assert descriptor_name("dogs-osd").title == "OSD, dogs"
