@@ -48,7 +48,7 @@ def mirror_symmetry(shape: TriangleMesh | PointCloud, *, tolerance: float = 0.03
     instance_of("shape", shape, TriangleMesh, PointCloud)
     tolerance = positive("tolerance", tolerance)
     points = shape.vertices
-    weights = shape.vertex_areas if isinstance(shape, TriangleMesh) and shape.area > 0 else np.ones(len(points))
+    weights = shape.vertex_areas if isinstance(shape, TriangleMesh) and shape.has_mass.any() else np.ones(len(points))
     weights = weights / weights.sum()
     middle = weights @ points
     scatter = ((points - middle) * weights[:, None]).T @ (points - middle)

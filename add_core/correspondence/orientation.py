@@ -9,7 +9,6 @@ from scipy.sparse import csr_array
 from .._check import FloatArray, IntArray, index_array
 from ..geometry import PointCloud, TriangleMesh
 from ..geometry.neighbours import nearest_neighbours
-from ..geometry.normals import estimate_normals
 from ..spectra import Spectrum
 
 
@@ -72,8 +71,11 @@ def outward_triangles(shape: TriangleMesh | PointCloud) -> IntArray:
     cloud."""
     if isinstance(shape, TriangleMesh):
         return shape.faces
-    points, normals = shape.points, outward_normals(shape)
+    first = shape.distinct.first  # points in one place span no triangle
+    points, normals = shape.points[first], shape.outward_normals[first]
     near = nearest_neighbours(points, 8).indices
+    if near.shape[1] < 2:
+        return np.empty((0, 3), dtype=np.int64)
     one = near[:, 0]
     ways = points[near] - points[:, None, :]
     across = np.cross(ways[:, :1], ways)  # (n, 8, 3): twice the area vectors of the triangles to be chosen from
@@ -81,14 +83,12 @@ def outward_triangles(shape: TriangleMesh | PointCloud) -> IntArray:
     row = np.arange(len(points))
     outward = (across[row, chosen] * normals).sum(axis=1) > 0
     other = near[row, chosen]
-    return np.stack([row, np.where(outward, one, other), np.where(outward, other, one)], axis=1)
+    return np.asarray(first[np.stack([row, np.where(outward, one, other), np.where(outward, other, one)], axis=1)])
 
 
 def outward_normals(shape: TriangleMesh | PointCloud) -> FloatArray:
     """(n, 3): vertex normals of a mesh, or a cloud's own, or estimated ones."""
-    if isinstance(shape, TriangleMesh):
-        return shape.vertex_normals
-    return shape.normals if shape.normals is not None else estimate_normals(shape.points)
+    return shape.vertex_normals if isinstance(shape, TriangleMesh) else shape.outward_normals
 
 
 def orientation_kept(shape: TriangleMesh | PointCloud, images: IntArray, weights: FloatArray) -> float:

@@ -31,7 +31,9 @@ def lowest_nonzero_eigenvalue(spectrum: Spectrum) -> float:
     Raises ParameterError if all of them are zero.
     """
     checked_spectrum(spectrum)
-    rounding = max(1e-8 * spectrum.eigenvalues[-1], 1e-10 * 4 * np.pi / spectrum.mass.sum())
+    rounding = 1e-8 * spectrum.eigenvalues[-1]
+    if spectrum.eigenvalues[0] != 0:  # our own zeros are exact; those of other solvers are rounding
+        rounding = max(rounding, 1e-10 * 4 * np.pi / spectrum.mass.sum())
     moving = spectrum.eigenvalues[spectrum.eigenvalues > rounding]
     if not len(moving):
         raise ParameterError("spectrum must hold a non-zero eigenvalue, but all are zero. Compute more of them.")

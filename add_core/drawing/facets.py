@@ -9,7 +9,6 @@ from scipy.spatial import KDTree
 
 from .._check import FloatArray, IntArray
 from ..geometry import PointCloud, TriangleMesh
-from ..geometry.normals import estimate_normals
 
 VISIBLE_CORNERS, OPAQUE_CORNERS = 10, 6
 """Of the polygons that stand for discs."""
@@ -43,12 +42,11 @@ class Facets:
         if isinstance(shape, TriangleMesh):
             return cls(shape.vertices, shape.faces, np.arange(shape.vertex_count), shape.vertex_normals)
         count = shape.vertex_count
-        normals = estimate_normals(shape.points) if shape.normals is None else shape.normals
         # Not one radius for all: clouds that were mesh vertices lie closer on hands than on shins.
         near = np.asarray(KDTree(shape.points).query(shape.points, k=min(NEIGHBOURS + 1, count))[0])[:, 1:]
         spacing = near.mean(axis=1) if count > 1 else np.ones(count)
-        seen = _discs(shape.points, normals, VISIBLE_DISC * spacing, VISIBLE_CORNERS)
-        behind = _discs(shape.points, normals, OPAQUE_DISC * spacing, OPAQUE_CORNERS)
+        seen = _discs(shape.points, shape.outward_normals, VISIBLE_DISC * spacing, VISIBLE_CORNERS)
+        behind = _discs(shape.points, shape.outward_normals, OPAQUE_DISC * spacing, OPAQUE_CORNERS)
         places, faces, bent = (np.concatenate([one, two]) for one, two in zip(seen, behind, strict=True))
         faces[len(seen[1]) :] += len(seen[0])
         owner = np.concatenate([np.repeat(np.arange(count), size + 1) for size in (VISIBLE_CORNERS, OPAQUE_CORNERS)])

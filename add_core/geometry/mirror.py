@@ -37,7 +37,8 @@ def _opposite_corners(mesh: TriangleMesh) -> dict[tuple[int, int], int]:
 
 def _reflections(mesh: TriangleMesh) -> list[IntArray]:
     """(n,) for each plane: the vertex nearest to the mirror image of each vertex; best plane first."""
-    weight = mesh.vertex_areas / mesh.vertex_areas.sum()
+    weight = mesh.vertex_areas if mesh.has_mass.any() else np.ones(mesh.vertex_count)
+    weight = weight / weight.sum()
     centred = mesh.vertices - weight @ mesh.vertices
     _, axes = np.linalg.eigh((centred * weight[:, None]).T @ centred)
     tree = cKDTree(centred)

@@ -1,5 +1,7 @@
 """Signatures against their formulas, and against what they must not see."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
@@ -10,6 +12,7 @@ from add_core.descriptors import (
     anisotropic_heat_kernel_times,
     geometry_vectors,
     heat_kernel_signature,
+    heat_kernel_times,
     heat_window,
     scale_invariant_heat_kernel_signature,
     scaled_heat_kernel_signature,
@@ -230,3 +233,20 @@ def test_a_vertex_without_mass_has_zeros_and_nothing_is_nan():
     assert not invariant[-1].any()
     assert np.isfinite(vectors).all()
     assert np.isfinite(invariant).all()
+
+
+def test_slow_heat_is_no_standing_heat():
+    """In a small unit α = 50 slows heat by many orders below the isotropic pace of the area: λ_1 is no zero for it."""
+    tiny = ellipsoid(1e-9, 0.8e-9, 0.6e-9, subdivisions=2)
+    slow = compute_spectrum(AnisotropicLaplacian(tiny, alpha=50.0), count=20)
+    large = compute_spectrum(AnisotropicLaplacian(ellipsoid(1.0, 0.8, 0.6, subdivisions=2), alpha=50.0e9), count=20)
+    assert_allclose(heat_kernel_times(slow, 5), heat_kernel_times(large, 5) * 1e-18, rtol=1e-6)
+
+
+def test_zeros_of_another_solver_are_rounding(spectrum):
+    """eigsh gives 1e-13 of either sign for the constant, which is no lowest frequency."""
+    values = spectrum.eigenvalues.copy()
+    values[0] = 1e-13
+    assert heat_kernel_times(replace(spectrum, eigenvalues=values), 2)[1] == heat_kernel_times(spectrum, 2)[1]
+    with pytest.raises(ParameterError, match="all are zero"):
+        heat_kernel_times(replace(spectrum, eigenvalues=values[:1]), 2)

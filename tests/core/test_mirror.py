@@ -42,3 +42,9 @@ def test_a_collection_finds_its_map_from_a_neutral_shape(tmp_path):
         save_shape(dogs()[number], tmp_path / f"dog{number}.ply")
     assert open_collection(tmp_path).symmetry is None
     assert_array_equal(open_collection(tmp_path, neutral=0).symmetry, dogs().symmetry)
+
+
+def test_a_mesh_without_area_has_a_mirror_map_or_none_but_no_warning():
+    line = TriangleMesh(np.outer(np.arange(5.0), [1, 2, 3]), [[0, 1, 2], [2, 3, 4]])
+    found = mirror_map(line)
+    assert found is None or (found[found] == np.arange(5)).all()

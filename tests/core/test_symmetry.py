@@ -163,3 +163,12 @@ def test_loose_vertices_ask_for_no_smaller_count():
     ball = sphere(1)
     loose = TriangleMesh(np.vstack([ball.vertices, ball.vertices * 1.1]), ball.faces)
     assert len(intrinsic_symmetry(loose, angles=2).candidate) == 84
+
+
+def test_points_in_one_place_do_not_hide_which_way_a_cloud_is_turned():
+    """No direction leads from a point to its double, so that both take part as one."""
+    points = np.vstack([sphere(2).vertices, sphere(2).vertices[::2]])
+    cloud, mirrored = PointCloud(points), PointCloud(points * [-1, 1, 1])
+    assert preserved_orientation(cloud, cloud, np.arange(len(points))) == 1.0
+    assert preserved_orientation(mirrored, cloud, np.arange(len(points))) == 0.0
+    assert preserved_orientation(PointCloud(np.eye(3)[:2]), cloud, [0, 1]) == 0.5
