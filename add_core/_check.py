@@ -66,6 +66,14 @@ def points_array(name: str, value: ArrayLike, *, least: int = 1) -> FloatArray:
     return read_only(array)
 
 
+def positions_array(name: str, value: ArrayLike, *, least: int = 1) -> FloatArray:
+    """`points_array` of points that lie in one place or so far apart that squares of areas can be told from zero."""
+    array = points_array(name, value, least=least)
+    if 0 < np.ptp(array, axis=0).max() < 1 / _LARGEST:
+        raise GeometryError(f"{name} must span {1 / _LARGEST:g} or more, or areas vanish. Choose a smaller unit.")
+    return array
+
+
 def faces_array(value: ArrayLike, vertex_count: int) -> IntArray:
     """`value` as a read-only int64 copy of shape (m, 3) that indexes into `vertex_count` vertices."""
     raw = array_of("faces", value, error=GeometryError)

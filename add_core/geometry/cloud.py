@@ -8,7 +8,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .._check import BoolArray, FloatArray, points_array, read_only
+from .._check import BoolArray, FloatArray, points_array, positions_array, read_only
 from ..errors import GeometryError
 from .fans import Fans, build_fans
 from .neighbours import DistinctPoints, distinct_points
@@ -33,7 +33,7 @@ class PointCloud:
     name: str = ""
 
     def __init__(self, points: ArrayLike, normals: ArrayLike | None = None, name: str = "") -> None:
-        checked = points_array("points", points)
+        checked = positions_array("points", points)
         object.__setattr__(self, "points", checked)
         object.__setattr__(self, "normals", None if normals is None else _unit_normals(normals, len(checked)))
         object.__setattr__(self, "name", str(name))

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 from scipy.sparse import csr_array
 from scipy.sparse.csgraph import connected_components
 
-from .._check import BoolArray, FloatArray, IntArray, faces_array, points_array, read_only
+from .._check import BoolArray, FloatArray, IntArray, faces_array, positions_array, read_only
 from .distinct import sorted_distinct
 
 FLAT_FACE = 1e-14
@@ -48,7 +48,7 @@ class TriangleMesh:
     name: str = ""
 
     def __init__(self, vertices: ArrayLike, faces: ArrayLike, name: str = "") -> None:
-        checked = points_array("vertices", vertices, least=3)
+        checked = positions_array("vertices", vertices, least=3)
         object.__setattr__(self, "vertices", checked)
         object.__setattr__(self, "faces", faces_array(faces, len(checked)))
         object.__setattr__(self, "name", str(name))

@@ -216,3 +216,11 @@ def test_matches_do_not_depend_on_the_unit_of_a_descriptor(unit, width):
     mirror = np.roll(POINTS, 1)
     assert_array_equal(nearest_matches(values * unit, values * unit), POINTS)
     assert right_side(values * unit, values * unit, POINTS, symmetry=mirror).share == 1.0
+
+
+@pytest.mark.parametrize("make", [lambda places: TriangleMesh(places, MESH.faces), PointCloud])
+def test_a_unit_in_which_areas_vanish_is_refused_but_not_points_in_one_place(make):
+    with pytest.raises(GeometryError, match=r"must span 1e-60 or more, or areas vanish\. Choose a smaller unit"):
+        make(MESH.vertices * 1e-120)
+    assert make(MESH.vertices * 0.0).vertex_count == N
+    assert make(MESH.vertices * 1e-59).area == pytest.approx(MESH.area * 1e-118, rel=0.1)
