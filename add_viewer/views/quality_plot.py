@@ -7,6 +7,7 @@ from typing import Any
 from matplotlib.backends.backend_qtagg import FigureCanvasQTAgg
 from matplotlib.figure import Figure
 from PySide6.QtCore import QSize, Qt
+from PySide6.QtGui import QFont, QFontMetrics, QResizeEvent
 from PySide6.QtWidgets import QLabel, QStackedLayout, QVBoxLayout, QWidget
 
 from ..models.insights import Insights, MatchQuality
@@ -15,7 +16,7 @@ from .theme import GRID, LIGHT, Theme
 
 LEGEND = (
     "Share of matches within a geodesic radius of the truth. Solid: a mirror image counts as right; dashed: as wrong. "
-    "Grey: the other position of Refined."
+    "Grey: the other position of Refined. On the right: the share of exact matches."
 )
 _SHADES = (1.0, 0.62, 0.4)
 
@@ -62,11 +63,17 @@ class QualityPlot(QWidget):
         super().showEvent(event)
         self._draw()
 
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        super().resizeEvent(event)
+        if self.isVisible():
+            self._draw()  # the labels' share of the width has changed
+
     def _draw(self) -> None:
         theme = self._theme
         self.figure.clear()
         self.figure.set_facecolor(theme.window)
-        axes = self.figure.add_axes((0.08, 0.24, 0.70, 0.62))
+        labels = [self._label(quality) for quality in self.shown]
+        axes = self.figure.add_axes((0.08, 0.24, 0.90 - self._room(labels), 0.62))
         axes.set_facecolor(theme.panel)
         axes.tick_params(colors=theme.muted, labelsize=8, length=3, width=0.8)
         axes.grid(True, color=theme.grid, linewidth=0.8)
@@ -77,23 +84,41 @@ class QualityPlot(QWidget):
         axes.set_yticks([0, 0.25, 0.5, 0.75, 1], ["0", "25 %", "50 %", "75 %", "100 %"])
         axes.set_xlabel("geodesic error ÷ √area", color=theme.muted, fontsize=8, labelpad=1)
         axes.set_title("Matches within that error", loc="left", fontsize=9, color=theme.text, pad=4)
-        for number, quality in enumerate(self.shown):
+        for number, (quality, label) in enumerate(zip(self.shown, labels, strict=True)):
             self._draw_curves(axes, number, quality)
+            style: dict[str, Any] = {
+                "fontsize": 8,
+                "color": theme.text,
+                "alpha": _SHADES[number % len(_SHADES)],
+                "va": "top",
+            }
+            axes.text(1.02, 1.0 - 0.2 * number, label, transform=axes.transAxes, **style)
         self.canvas.draw()  # type: ignore[attr-defined]
 
     def _draw_curves(self, axes: Any, number: int, quality: MatchQuality) -> None:
         refined = self._session.state.matching.refined
-        shape = self._session.state.shape(quality.target)
         for (stage, symmetric), curve in quality.curves.items():
             current = stage == refined
             colour = self._theme.accent if current else self._theme.muted
             line = {"lw": 2.0 if current else 1.0, "ls": "-" if symmetric else "--", "color": colour}
             axes.plot(curve.x, curve.y, alpha=_SHADES[number % len(_SHADES)], **line)
-        end = quality.curves[refined, False]
-        name = "" if shape is None else shape.name
-        label = f"{name}\n{100 * end.exact:.0f} % exact"
-        place = 0.98 - 0.26 * number
-        axes.text(1.02, place, label, transform=axes.transAxes, fontsize=8, color=self._theme.text, va="top")
+
+    def _label(self, quality: MatchQuality) -> str:
+        state = self._session.state
+        shape = state.shape(quality.target)
+        name = "" if shape is None else self._small.elidedText(shape.name, Qt.TextElideMode.ElideMiddle, 20 * GRID)
+        return f"{100 * quality.curves[state.matching.refined, False].exact:.0f} %  {name}"
+
+    def _room(self, labels: list[str]) -> float:
+        """Share of the width that the labels need."""
+        widest = max((self._small.horizontalAdvance(label) for label in labels), default=0)
+        return min((widest + 3 * GRID) / max(self.canvas.width(), 1), 0.4)
+
+    @property
+    def _small(self) -> QFontMetrics:
+        font = QFont(self.font())
+        font.setPointSizeF(8.0 * self.figure.dpi / self.logicalDpiX())
+        return QFontMetrics(font)
 
     def show_theme(self, theme: Theme) -> None:
         """Draw in the theme's colours."""
