@@ -17,7 +17,7 @@ from pathlib import Path
 import numpy as np
 import torch
 import training_bodies
-from train_models import PEOPLE, RECIPE
+from train_models import RECIPE
 
 from add_core.contest.pairs import chosen_pairs
 from add_core.evaluation import Scores, averaged, save_report, table
@@ -36,9 +36,9 @@ from add_core.learning.training_set import PreparedShape, prepare
 from add_core.learning.windowed_fourier import FourierShape, WindowedFourierNetwork, learn_windowed_fourier
 from add_core.spectra import compute_spectra
 
-BODIES = range(0, PEOPLE, 2)
+BODIES = range(0, 112, 2)
 SETTINGS = TrainingSettings(
-    steps=1000, pairs=160, noise=0.15, averaging=0.99, arithmetic="bfloat16", checkpoint_every=250, validate_every=250
+    steps=3000, pairs=160, noise=0.15, averaging=0.99, arithmetic="bfloat16", checkpoint_every=250, validate_every=250
 )
 ISOTROPIC = ("ADD1", "ADD3", "mADD1", "mADD3")
 """Networks whose isotropic twins are trained too; that of mADD3 is the isotropic network of the figures."""

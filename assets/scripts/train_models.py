@@ -1,21 +1,23 @@
 """Train the models in assets/models from the shipped shapes.
 
-    python train_models.py humans -o FIRST
-    python train_models.py more-humans -o RUN --start FIRST --inputs FIRST/inputs
+    python train_models.py humans-1 -o RUN1 --inputs INPUTS
+    python train_models.py humans-2 -o RUN2 --inputs INPUTS --start RUN1
+    python train_models.py humans-3 -o RUN3 --inputs INPUTS --start RUN2
+    python train_models.py humans-4 -o RUN4 --inputs INPUTS --start RUN3
+    python train_models.py correspondence -o RUN --inputs INPUTS --start RUN4
     python train_models.py dogs -o RUN
-    python train_models.py correspondence -o RUN --start HUMANS_RUN
-    python train_models.py osd -o RUN
+    python train_models.py osd -o RUN --inputs INPUTS
 
-Nearly half of the time goes into spectra: 17 operators for each body, 15 seconds on a core, and 20 MB of disk each in
-RUN/inputs, which the runs may share (--inputs). It may be stopped and started again; RUN/model.safetensors is the best
-so far.
+humans-madd3 learns in four stages, each from more bodies than the last. About half of the time goes into spectra: 17
+operators for each body, 7 to 15 seconds on a core, and 20 MB of disk each in INPUTS. Each may be stopped and started
+again; RUN/model.safetensors is the best so far.
 """
 
 from __future__ import annotations
 
 import argparse
 import json
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import training_bodies
@@ -30,24 +32,38 @@ from add_core.learning.training_set import PreparedShape, prepare
 RECIPE = InputRecipe(angles=8, eigenpairs=300, splines=96)
 CORRESPONDENCE = "ASF256 ReLU ASF256 ReLU SC FC512 ReLU FC512 ReLU FCreference Softmax"
 """mADD4 with a quarter to a half of its widths; its first layers begin as those of humans-madd3."""
-PEOPLE, MORE_PEOPLE, DOGS = 112, 132, 36
-"""Training bodies: the first numbers of `training_bodies.person` and `dog`."""
+OSD = range(0, 112, 2)
+"""Training bodies of the optimal spectral descriptors."""
 COMMON = TrainingSettings(pairs=160, noise=0.15, averaging=0.998, arithmetic="bfloat16", validate_every=500)
-SETTINGS = {
-    "humans": replace(COMMON, steps=10000),
-    "more-humans": replace(COMMON, steps=12000, learning_rate=7e-4, noise=0.1, seed=1),
-    "dogs": replace(COMMON, steps=3000, validate_every=250),
-    "correspondence": replace(COMMON, steps=3000, loss="multinomial"),
+LATER = replace(COMMON, noise=0.1, seed=1, validate_every=1000)
+
+
+@dataclass(frozen=True)
+class Stage:
+    """bodies : the first numbers of `training_bodies.person` or `dog` that are learned from."""
+
+    bodies: int
+    settings: TrainingSettings
+
+
+STAGES = {
+    "humans-1": Stage(112, replace(COMMON, steps=10000)),
+    "humans-2": Stage(132, replace(LATER, steps=12000, learning_rate=7e-4, validate_every=500)),
+    "humans-3": Stage(376, replace(LATER, steps=14000, learning_rate=7e-4)),
+    "humans-4": Stage(490, replace(LATER, steps=9000, learning_rate=6e-4, seed=2)),
+    "correspondence": Stage(376, replace(COMMON, steps=4000, loss="multinomial")),
+    "dogs": Stage(36, replace(COMMON, steps=3000, validate_every=250)),
 }
 
 
 def task(data: str) -> LearningTask:
     """Bodies to train on and to validate by."""
+    numbers = range(STAGES[data].bodies)
     if data == "dogs":
         middles = training_bodies.dog_middles()
-        bodies = [training_bodies.dog(number) for number in range(DOGS)]
+        bodies = [training_bodies.dog(number) for number in numbers]
         return LearningTask(bodies, training_bodies.validation_dogs(), middles.symmetry, dogs()[0])
-    bodies = [training_bodies.person(number) for number in range(MORE_PEOPLE if data == "more-humans" else PEOPLE)]
+    bodies = [training_bodies.person(number) for number in numbers]
     middles = training_bodies.people_middles()
     return LearningTask(bodies, training_bodies.validation_people(), middles.symmetry, humans()[0])
 
@@ -60,7 +76,7 @@ def learn(data: str, run: Path, inputs: Path, start: Path | None, steps: int | N
         return prepare(shapes, RECIPE, inputs, report=lambda name, done, total: print(name, done, total, flush=True))
 
     training, validation = prepared(list(chosen.training)), prepared(list(chosen.validation))
-    settings = SETTINGS[data]
+    settings = STAGES[data].settings
     if steps is not None:
         settings = replace(settings, steps=steps)
     named = data == "correspondence"
@@ -89,7 +105,7 @@ def learn(data: str, run: Path, inputs: Path, start: Path | None, steps: int | N
 
 def learn_osd(inputs: Path) -> Model:
     """Optimal spectral descriptors of half of the people, in closed form."""
-    bodies = [training_bodies.person(number) for number in range(0, PEOPLE, 2)]
+    bodies = [training_bodies.person(number) for number in OSD]
     shapes = [linear_part(shape) for shape in prepare(bodies, RECIPE, inputs)]
     symmetry = training_bodies.people_middles().symmetry
     return optimal_spectral_descriptor(shapes, linear_recipe(RECIPE), symmetry=symmetry)
@@ -103,10 +119,12 @@ def _say(event: dict[str, object]) -> None:
 def main() -> None:
     """Train one model, and write it once more with weights of half precision, as it ships."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("data", choices=[*sorted(SETTINGS), "osd"])
+    parser.add_argument("data", choices=[*STAGES, "osd"])
     parser.add_argument("-o", "--output", type=Path, required=True)
     parser.add_argument("--inputs", type=Path, help="Folder of prepared inputs. [default: inputs in the run's folder]")
-    parser.add_argument("--start", type=Path, help="Model whose first layers are taken over.")
+    parser.add_argument(
+        "--start", type=Path, help="Model whose first layers are taken over; all, as far as they agree."
+    )
     parser.add_argument("--steps", type=int)
     given = parser.parse_args()
     inputs = given.inputs or given.output / "inputs"
