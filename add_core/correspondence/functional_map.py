@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 from scipy.sparse import csr_array, issparse
 
 from .._check import FloatArray, IntArray, array_of, count_in, descriptor_array, index_array, numbers, read_only
+from ..descriptors.range import checked_spectrum
 from ..errors import ParameterError
 from ..geometry import TriangleMesh
 from ..spectra import Spectrum
@@ -148,6 +149,8 @@ def pulled_back(functions_1: FloatArray, match_21: ArrayLike | SoftMatches, n2: 
 
 
 def _counts(spectrum_1: Spectrum, spectrum_2: Spectrum, count: int | tuple[int, int]) -> tuple[int, int]:
+    checked_spectrum(spectrum_1, name="spectrum_1")
+    checked_spectrum(spectrum_2, name="spectrum_2")
     k1, k2 = count if isinstance(count, tuple) and len(count) == 2 else (count, count)
     return (
         count_in("count", k1, 1, len(spectrum_1.eigenvalues)),

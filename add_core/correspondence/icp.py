@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from .._check import count_in
+from .._check import count_in, instance_of
 from .functional_map import FunctionalMap
 
 
@@ -16,6 +16,7 @@ def icp(start: FunctionalMap, *, iterations: int = 10) -> FunctionalMap:
     start : the map to begin with; the result has its size. iterations : steps at most.
     Raises ParameterError if `iterations` is out of range.
     """
+    instance_of("start", start, FunctionalMap)
     found = start
     k2, k1 = start.map_12.shape
     for _ in range(count_in("iterations", iterations, 1, 100_000)):

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.sparse import csr_array
 
-from .._check import FloatArray, IntArray, index_array
+from .._check import FloatArray, IntArray, index_array, instance_of
 from ..geometry import PointCloud, TriangleMesh
 from ..geometry.neighbours import nearest_neighbours
 from ..spectra import Spectrum
@@ -60,6 +60,8 @@ def preserved_orientation(
     match_21 : (n2,), the vertex of shape_1 for each of shape_2. On a cloud, triangles of neighbouring points stand in
         for faces, each counting alike. Faces that collapse say nothing and are left out.
     """
+    for name, shape in (("shape_2", shape_2), ("shape_1", shape_1)):
+        instance_of(name, shape, TriangleMesh, PointCloud)
     match = index_array("match_21", match_21, shape_1.vertex_count, count=shape_2.vertex_count)
     faces = outward_triangles(shape_2)
     weights = shape_2.face_areas if isinstance(shape_2, TriangleMesh) else np.ones(len(faces))

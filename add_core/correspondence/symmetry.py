@@ -8,6 +8,7 @@ import numpy as np
 
 from .._check import FloatArray, IntArray, count_in, positive, read_only
 from ..descriptors import geometry_vectors
+from ..descriptors.range import checked_family
 from ..errors import ParameterError
 from ..geometry import PointCloud, TriangleMesh, farthest_points, normalize
 from ..geometry.pair_distances import PairDistances
@@ -102,7 +103,7 @@ def intrinsic_symmetry(
         degrees = (0.0, positive("alpha", alpha))
         count = min(count_in("count", count, 10, 10**9), max(int(unit.has_mass.sum()) - 2, 1))
         family = compute_spectra(unit, alphas=degrees, angles=angles, count=count, progress=progress)
-    isotropic = np.flatnonzero(family.alphas == 0)
+    isotropic = np.flatnonzero(checked_family(family).alphas == 0)
     if not len(isotropic):
         raise ParameterError("family must hold α = 0, on whose eigenfunctions the map is built. Compute it along.")
     spectrum = family[int(isotropic[0])]

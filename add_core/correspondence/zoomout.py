@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .._check import FloatArray, IntArray, count_in
+from ..descriptors.range import checked_spectrum
 from ..errors import ParameterError
 from ..spectra import Spectrum
 from .functional_map import FunctionalMap, SoftMatches
@@ -37,6 +38,8 @@ def zoomout(
     Returns the map of `stop` eigenfunctions; its `match_21` (n2,) is the refined correspondence.
     Raises ParameterError if an argument is out of range or the correspondence does not fit.
     """
+    checked_spectrum(spectrum_1, name="spectrum_1")
+    checked_spectrum(spectrum_2, name="spectrum_2")
     most = min(len(spectrum_1.eigenvalues), len(spectrum_2.eigenvalues))
     if isinstance(initial, FunctionalMap):
         found = initial

@@ -8,11 +8,14 @@ from ..errors import ParameterError
 from ..spectra import SpectralFamily, Spectrum
 
 
-def checked_spectrum(spectrum: Spectrum) -> Spectrum:
-    """`spectrum` itself. Raises ParameterError if it is none, above all if it is a whole family."""
+def checked_spectrum(spectrum: Spectrum, *, name: str = "spectrum") -> Spectrum:
+    """`spectrum` itself, called `name` in complaints.
+
+    Raises ParameterError if it is none, above all if it is a whole family.
+    """
     if np.ndim(getattr(spectrum, "eigenvalues", 0.0)) != 1:
         raise ParameterError(
-            f"spectrum must be that of one operator, but it is a {type(spectrum).__name__}. "
+            f"{name} must be that of one operator, but it is a {type(spectrum).__name__}. "
             "Take one of a family, family[0], or compute_spectrum."
         )
     return spectrum

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.interpolate import BSpline
 
-from .._check import FloatArray, count_in, positive_array
+from .._check import FloatArray, count_in, instance_of, positive_array
 from ..errors import ParameterError
 from ..spectra import SpectralFamily
 from .filters import spectral_signature
@@ -51,6 +51,7 @@ def spline_reach(families: list[SpectralFamily]) -> FloatArray:
 
     Raises ParameterError if the families differ in their channels.
     """
+    instance_of("families", families, list, tuple)
     if not families:
         raise ParameterError("families must hold at least one family, but it is empty.")
     first = checked_family(families[0])

@@ -36,8 +36,8 @@ def wave_kernel_signature(spectrum: Spectrum, energies: ArrayLike, *, width: flo
     levels = np.atleast_1d(numbers("energies", energies))
     if levels.ndim != 1 or not levels.size or not np.isfinite(levels).all():
         raise ParameterError("energies must be a list of finite numbers (logarithms of eigenvalues), but it is not.")
-    eigenvalues = spectrum.eigenvalues
-    moving = eigenvalues >= lowest_nonzero_eigenvalue(spectrum)
+    lowest, eigenvalues = lowest_nonzero_eigenvalue(spectrum), spectrum.eigenvalues
+    moving = eigenvalues >= lowest
     distance = (levels - np.log(eigenvalues[moving])[:, None]) ** 2 / (2 * width**2)
     # Only ratios count: measured from the nearest eigenvalue, no energy far from all of them divides zero by zero.
     band = np.exp(distance.min(axis=0) - distance)

@@ -87,6 +87,8 @@ def save_shape(shape: Shape, path: StrPath, fields: Mapping[str, ArrayLike] | No
     """
     path = file_path(path)
     instance_of("shape", shape, TriangleMesh, PointCloud)
+    given = {} if fields is None else fields
+    instance_of("fields", given, Mapping)
     try:
         known = FORMATS.get(path.suffix.lower())
         if known is None:
@@ -95,11 +97,9 @@ def save_shape(shape: Shape, path: StrPath, fields: Mapping[str, ArrayLike] | No
             raise ShapeFileError(
                 f"{known.name} files are read, but not written. Choose one of {', '.join(extensions(writable=True))}."
             )
-        if fields is not None and len(fields) and not known.holds_fields:
+        if given and not known.holds_fields:
             raise ShapeFileError(_no_fields(known.name))
-        write_atomically(
-            path, known.write(shape, _checked_fields({} if fields is None else fields, shape.vertex_count))
-        )
+        write_atomically(path, known.write(shape, _checked_fields(given, shape.vertex_count)))
     except AddError as error:
         raise type(error)(f"{path}: {error}") from None
 
@@ -165,7 +165,6 @@ def _no_fields(name: str) -> str:
 
 
 def _checked_fields(fields: Mapping[str, ArrayLike], vertex_count: int) -> Fields:
-    instance_of("fields", fields, Mapping)
     checked: Fields = {}
     for name, values in fields.items():
         try:

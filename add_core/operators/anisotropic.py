@@ -134,7 +134,12 @@ class AnisotropicLaplacian:
 
     def weyl_eigenvalue(self, index: int) -> float:
         """Weyl's estimate of λ_index, 1/length²: 4π·index / Σ area/√(along·across), the same for every θ."""
-        return float(4 * np.pi * index / np.sum(self.elements.weighted_areas / np.sqrt(self._along * self._across)))
+        return float(
+            4
+            * np.pi
+            * at_least_zero("index", index)
+            / np.sum(self.elements.weighted_areas / np.sqrt(self._along * self._across))
+        )
 
 
 def _degree(alpha: float) -> float:
