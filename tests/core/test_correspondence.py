@@ -20,6 +20,7 @@ from add_core.correspondence import (
 )
 from add_core.correspondence import nearest as nearest_module
 from add_core.correspondence.orientation import turning_operator
+from add_core.correspondence.own_symmetry import own_symmetry
 from add_core.descriptors import wave_kernel_energies, wave_kernel_signature
 from add_core.errors import ParameterError
 from add_core.geometry import TriangleMesh
@@ -156,6 +157,30 @@ def test_a_guide_leads_matches_of_the_wrong_side_back(isometry):
     assert (found.match_21 == same).mean() > 0.95
     assert found.map_12.shape == (60, 60)
     assert_array_equal(guided_zoomout(spectrum, spectrum, *hints, initial=mirror, stop=60).map_12, found.map_12)
+
+
+def test_descriptors_show_the_symmetry_of_their_own_shape():
+    """Alike to the left and to the right, but neither above and below nor in front and behind."""
+    ball = ellipsoid(1.0, 1.2, 1.5, subdivisions=3)
+    spectrum = spectrum_of(ball)
+    mirror = cdist(ball.vertices * [-1, 1, 1], ball.vertices).argmin(axis=1)
+    alike = ball.vertices * [0.3, 1, 1] + 0.1 * np.random.default_rng(3).normal(size=(642, 3))
+    found = own_symmetry(spectrum, alike, 40)
+    assert_allclose(found @ found, np.eye(40), atol=1e-9)
+    functions = spectrum.eigenfunctions[:, :40]
+    assert (nearest_matches(functions, functions @ found.T) == mirror).mean() > 0.95
+
+
+def test_a_map_that_grew_the_wrong_way_round_is_turned():
+    """Most points look a little more like their mirror images, and few are marked: all matches start on the wrong side
+    and a faint guide leaves them there, but the whole map agrees better turned round."""
+    ball = ellipsoid(1.0, 1.2, 1.5, subdivisions=3)
+    spectrum, x = spectrum_of(ball), ball.vertices[:, 0]
+    mirror = cdist(ball.vertices * [-1, 1, 1], ball.vertices).argmin(axis=1)
+    one, two = (np.column_stack([sign * 0.2 * x, ball.vertices[:, 1:], 1.5 * (x > 0.8)]) for sign in (1, -1))
+    assert (nearest_matches(two, one) == mirror).mean() > 0.7
+    found = guided_zoomout(spectrum, spectrum, one, two, weight=0.03, stop=60)
+    assert (found.match_21 == np.arange(642)).mean() > 0.95
 
 
 def test_a_guided_map_needs_no_other_start_than_its_descriptors(isometry):
