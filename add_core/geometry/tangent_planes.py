@@ -90,5 +90,6 @@ def _laid_down(vectors: FloatArray, basis: TangentBasis) -> FloatArray:
     """(n, k, 2): vectors (n, k, 3) turned down into the tangent planes of their rows, their lengths kept."""
     along = np.einsum("nki,ni->nk", vectors, basis.first), np.einsum("nki,ni->nk", vectors, basis.second)
     flat = np.stack(along, axis=2)
-    shadow = np.maximum(np.linalg.norm(flat, axis=2), np.finfo(float).tiny)
-    return np.asarray(flat * (np.linalg.norm(vectors, axis=2) / shadow)[:, :, None])
+    shadow, length = np.linalg.norm(flat, axis=2), np.linalg.norm(vectors, axis=2)
+    stretch = np.divide(length, shadow, out=np.zeros_like(length), where=shadow > 1e-100 * length)
+    return np.asarray(flat * stretch[:, :, None])  # 0 for what stands upright: it has no direction in the plane

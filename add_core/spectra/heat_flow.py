@@ -15,6 +15,8 @@ from .krylov import KrylovBasis, workspace
 
 TOLERANCE = 1e-5
 """Relative accuracy of a kernel in the mass-weighted norm, and of the heat left at its source, by default."""
+STILL = 1e12
+"""Times later than this over Weyl's first eigenvalue, when all heat is even to rounding, are taken for that one."""
 _FACTOR_BYTES = 256 * 2**20
 
 
@@ -51,6 +53,7 @@ class HeatFlow:
         self._latest, self._angles = Factors(progress, limit=0), Factors(progress, limit=_FACTOR_BYTES)
         self._basis: tuple[tuple[int, float, float], KrylovBasis] | None = None
         self._workspace = workspace(len(self._root))
+        self._last = STILL / laplacian.weyl_eigenvalue(1)
 
     def kernel(self, source: int, *, theta: float, time: float) -> FloatArray:
         """Heat kernel h(source, ·) (n,), 1/length²: how unit heat released at `source` lies after `time`.
@@ -60,6 +63,7 @@ class HeatFlow:
         Raises ParameterError for a time that is not positive and a source that is no vertex or has no mass.
         """
         source, theta, time = self._vertex(source), finite("theta", theta), positive("time", time)
+        time = min(time, self._last)
         gamma = 10.0 ** np.floor(np.log10(time)) / 4
         basis = self._basis_at(source, theta, gamma)
         column = np.empty(len(self._root))
@@ -72,7 +76,7 @@ class HeatFlow:
         The anisotropic heat kernel signature of one vertex (section 4.1), straight from the operator.
         Raises like `kernel`.
         """
-        source, moments = self._vertex(source), positive_array("times", times)
+        source, moments = self._vertex(source), np.minimum(positive_array("times", times), self._last)
         angles = [finite("thetas", angle) for angle in np.atleast_1d(numbers("thetas", thetas))]
         # A diagonal value converges twice as fast as a column, so one factorisation serves one and a half decades.
         gammas = 10.0 ** (1.5 * np.floor(np.log10(moments) / 1.5)) / 2

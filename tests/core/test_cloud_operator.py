@@ -230,3 +230,11 @@ def test_any_cloud_has_a_sound_operator_or_an_explanation(points, theta, alpha):
     assert ((laplacian.mass > 0) == ~isolated).all()
     frames = laplacian.frames
     assert np.isfinite([frames.max_curvature, frames.min_curvature, frames.confidence]).all()
+
+
+def test_a_neighbour_straight_above_a_point_has_no_direction_in_its_plane():
+    """In a unit of 1e6 its length over that of its shadow overflowed, and the shadow times that was NaN."""
+    sheet = 1e6 * rectangle(n=6).vertices
+    cloud = PointCloud(np.vstack([sheet, sheet + np.array([0, 0, 3e5])]), np.tile([0.0, 0.0, 1.0], (2 * len(sheet), 1)))
+    assert np.isfinite(cloud.tangent_planes.plane).all()
+    assert cloud.area == pytest.approx(2e12, rel=1e-9)

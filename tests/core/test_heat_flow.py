@@ -160,3 +160,13 @@ def test_a_flow_whose_progress_raises_answers_the_next_time(laplacian, monkeypat
         flow.kernel(30, theta=THETA, time=0.02)
     expected = HeatFlow(fresh).kernel(30, theta=THETA, time=0.02)
     assert_allclose(flow.kernel(30, theta=THETA, time=0.02), expected, rtol=1e-9)
+
+
+@pytest.mark.parametrize("time", [1e9, 1e60, 1e200])
+def test_heat_that_has_long_been_even_stays_so(time):
+    """Beside such a multiple of the stiffness the mass is lost to rounding, and the matrix is singular."""
+    for seed in range(12):
+        triangle = TriangleMesh(np.random.default_rng(seed).standard_normal((3, 3)), [[0, 1, 2]])
+        flow = HeatFlow(AnisotropicLaplacian(triangle))
+        assert_allclose(flow.kernel(0, theta=THETA, time=time), 1 / triangle.area, rtol=1e-9)
+        assert_allclose(flow.autodiffusion(0, thetas=[THETA], times=[time]), 1 / triangle.area, rtol=1e-9)
