@@ -26,7 +26,13 @@ _BLOCK = 128
 
 
 def bridging_triangles(
-    stars: IntArray, sure: BoolArray, points: FloatArray, normals: FloatArray, *, spacing: FloatArray
+    stars: IntArray,
+    sure: BoolArray,
+    points: FloatArray,
+    normals: FloatArray,
+    *,
+    spacing: FloatArray,
+    estimated: bool = False,
 ) -> BoolArray:
     """(t,): which fan triangles join parts of the surface that are near in space but far apart along it.
 
@@ -34,22 +40,24 @@ def bridging_triangles(
     spacing of the points, unless they face each other. The others follow in `ROUNDS`, those first that are short
     and lie well between their normals: an edge is refused if its ends are joined already, but only by a detour of
     `DETOUR` times its length, or of `FACING_DETOUR` times if they face each other.
-    So a finger is tied to its hand before it can be tied to what it points at. Triangles with a refused edge
-    bridge, except the cheapest of those without which a part would come loose.
+    So a finger is tied to its hand before it can be tied to what it points at. Where normals are given, edges that run
+    through the inside come before those outside: they cannot span a gap, and what they join makes no detour later.
+    Triangles with a refused edge bridge, except the cheapest of those without which a part would come loose.
 
     stars : (t, 3), centre first. points, normals : (n, 3). spacing : (n,), mean distance to the next neighbours.
+    estimated : whether the normals are, and so say little about inside and outside where sheets are close.
     """
     count = len(points)
     sides = np.sort(stars[:, [1, 2, 2, 0, 0, 1]].reshape(-1, 2), axis=1)
     keys, edge = np.unique(sides[:, 0] * count + sides[:, 1], return_inverse=True)
     edge = edge.reshape(-1, 3)
     ends = np.stack([keys // count, keys % count], axis=1)
-    length, cost, facing = _lengths_and_costs(ends, points, normals)
+    length, cost, facing, outside = _lengths_and_costs(ends, points, normals)
     reach = np.where(facing, FACING_DETOUR, DETOUR) * length
     straight = _held_by_both(ends, stars, count) & (cost <= SURE_BEND * length)
     taken = straight | ((cost <= SURE_COST * spacing[ends].max(axis=1)) & ~facing)
     taken[edge[sure]] = True
-    order = np.lexsort((cost, facing))
+    order = np.lexsort((cost, outside & (not estimated), facing))
     taken = _grown(taken, ends, length, reach, order[~taken[order]])
     kept = _rejoined(np.asarray(taken[edge].all(axis=1)), stars, cost[edge].max(axis=1, initial=0.0), count)
     if np.count_nonzero(kept) < (1 - MOST_BRIDGES) * len(kept):
@@ -59,7 +67,8 @@ def bridging_triangles(
 
 def _lengths_and_costs(
     ends: IntArray, points: FloatArray, normals: FloatArray
-) -> tuple[FloatArray, FloatArray, BoolArray]:
+) -> tuple[FloatArray, FloatArray, BoolArray, BoolArray]:
+    """Of each edge: length, cost, whether its ends face each other, and whether it runs outside of the surface."""
     chord = points[ends[:, 1]] - points[ends[:, 0]]
     length = np.linalg.norm(chord, axis=1)
     chord /= length[:, None]
@@ -67,7 +76,8 @@ def _lengths_and_costs(
     heights = np.einsum("ei,ei->e", chord, here), np.einsum("ei,ei->e", chord, there)
     steepness = np.maximum(heights[0] ** 2, heights[1] ** 2)
     facing = np.minimum(heights[0], -heights[1]) > FACING
-    return length, length * (2 - reflected_cosines(chord, here, there) + steepness), facing
+    cost = length * (2 - reflected_cosines(chord, here, there) + steepness)
+    return length, cost, facing, heights[0] > heights[1]
 
 
 def _held_by_both(ends: IntArray, stars: IntArray, count: int) -> BoolArray:

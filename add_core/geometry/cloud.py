@@ -71,7 +71,13 @@ class PointCloud:
     @cached_property
     def fans(self) -> Fans:
         """The triangles around every point: what a cloud has in place of faces."""
-        return build_fans(self.points, self.outward_normals, self.tangent_planes, self.distinct)
+        return build_fans(
+            self.points,
+            self.outward_normals,
+            self.tangent_planes,
+            self.distinct,
+            estimated=self.normals is None,
+        )
 
     @cached_property
     def has_mass(self) -> BoolArray:

@@ -41,20 +41,24 @@ class Fans:
     isolated: IntArray
 
 
-def build_fans(points: FloatArray, normals: FloatArray, planes: TangentPlanes, distinct: DistinctPoints) -> Fans:
+def build_fans(
+    points: FloatArray, normals: FloatArray, planes: TangentPlanes, distinct: DistinctPoints, *, estimated: bool = False
+) -> Fans:
     """Fans of a cloud from the tangent planes of its distinct points.
 
     Neighbours that seem to lie across a limb or a gap are left out of a fan at first, and let in by a more lenient
     test if the fan stays open without them, or by none if the point would touch no triangle at all. A point on the
     boundary has an open fan. Triangles that bridge a gap all the same are left out. Points in one place share the
     fans around it: they take their turns as corners.
+
+    estimated : whether the normals are, rather than given.
     """
     stars = _stars(planes)
     first = distinct.first
     flat = _flatness(stars, points[first], normals[first]) > FLAT_ENOUGH
     spacing = planes.nearest.distances[:, :6].sum(axis=1) / 6
     sure = flat & (_holders(stars) >= 3)
-    sound = ~bridging_triangles(stars, sure, points[first], normals[first], spacing=spacing)
+    sound = ~bridging_triangles(stars, sure, points[first], normals[first], spacing=spacing, estimated=estimated)
     weights = _weights(stars, flat, len(first))
     triangles, weights = _shared_by_duplicates(stars[sound], weights[sound], distinct)
     touched = np.zeros(len(distinct.place), dtype=bool)

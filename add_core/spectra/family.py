@@ -20,7 +20,7 @@ from .spectrum import Spectrum
 
 Precision = Literal["float64", "float32"]
 
-METHOD = 1
+METHOD, METHOD_ON_CLOUDS = 1, 2
 """Raised whenever geometry, operators or solver change a number, so that cached spectra of an earlier method are not
 read.
 """
@@ -154,7 +154,8 @@ def _key(
     shape: TriangleMesh | PointCloud, channels: FloatArray, count: int, conductivity: Conductivity, dtype: Precision
 ) -> str:
     """A hash of all that the numbers depend on: the shape's arrays, the parameters, and the version of the method."""
-    digest = blake2b(f"{METHOD}|{type(shape).__name__}|{count}|{conductivity}|{dtype}".encode(), digest_size=20)
+    method = METHOD if isinstance(shape, TriangleMesh) else METHOD_ON_CLOUDS
+    digest = blake2b(f"{method}|{type(shape).__name__}|{count}|{conductivity}|{dtype}".encode(), digest_size=20)
     second = shape.faces if isinstance(shape, TriangleMesh) else shape.normals
     for array in (shape.vertices, second, channels):
         if array is None:

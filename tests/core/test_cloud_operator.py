@@ -117,9 +117,11 @@ def test_the_sphere_has_its_eigenvalues_with_their_multiplicities(given):
     assert_allclose(spectrum.eigenvalues, expected, rtol=0.03, atol=1e-9)
 
 
-def test_the_spectrum_of_a_person_survives_the_loss_of_the_faces():
+@pytest.mark.parametrize("given", [True, False])
+def test_the_spectrum_of_a_person_survives_the_loss_of_the_faces(given):
     mesh = humans()[0]
-    cloud = PointCloud(subsample(mesh, 4000).cloud.points)
+    cloud = subsample(mesh, 4000).cloud
+    cloud = cloud if given else PointCloud(cloud.points)
     of_mesh = compute_spectrum(AnisotropicLaplacian(mesh, alpha=0.0), count=50).eigenvalues
     of_cloud = compute_spectrum(AnisotropicLaplacian(cloud, alpha=0.0), count=50).eigenvalues
     assert_allclose(of_cloud[1:], of_mesh[1:], rtol=0.05)
