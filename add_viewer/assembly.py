@@ -105,9 +105,9 @@ class Assembly:
         if screenshot is not None and store is None:  # a picture must not depend on what somebody set up earlier
             store = QSettings(os.devnull, QSettings.Format.IniFormat)
         self.window = MainWindow(self.session, self.results, self.display, Settings(store), _galleries())
-        reread = Rereading(read or read_shape)
-        self._control(reread)
-        self._keep(reread, session)
+        self._reread = Rereading(read or read_shape)
+        self._control(self._reread)
+        self._keep(self._reread, session)
         self._run_jobs(restore=screenshot is None)
         self._explore()
         if theme is not None:
@@ -128,7 +128,7 @@ class Assembly:
         self.worker.progressed.connect(self._show_work)
         self.window.cancel_requested.connect(self.worker.cancel)
         self.saving = Saving(self.window, write_atomically, curves_table, explain)
-        self.figures = FigureExport(self.window, self.saving)
+        self.figures = FigureExport(self.window, self.saving, run)
         self.recorder = Recorder(self.window, lambda: self.worker.is_idle)
         self.animations = AnimationExport(self.window, self.saving, self.recorder, run)
         self.saving.write_script = lambda: script_of(self.session.state, self.results.carried, WRITERS)
@@ -162,6 +162,7 @@ class Assembly:
 
         def work() -> None:
             self.operators.keep_only(shapes)
+            self._reread.lighten(shapes)
             give_back()
 
         self.worker.submit("rest", work, done=lambda _: None, failed=self.results.report)

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from add_core.geometry import TriangleMesh, normalize
+from add_core.geometry import normalize
 from add_core.io import ShippedPlace, load_shape_and_fields, shipped_place
 
 from ..models.results import Results
@@ -67,12 +67,12 @@ def read_shape(reference: str) -> OpenShape:
     """
     place = None if Path(reference).exists() else shipped_place(reference)
     if place is not None:
-        return _read_shipped(place)
+        return _read_shipped(place).make_ready()
     path = Path(reference).expanduser()
     loaded = load_shape_and_fields(path)
     key = str(path.resolve())
     opened = _open_shape(loaded.shape, key=key, reference=key, name=loaded.shape.name or path.stem)
-    return replace(opened, fields=loaded.fields)
+    return replace(opened, fields=loaded.fields).make_ready()
 
 
 def _read_shipped(place: ShippedPlace) -> OpenShape:
@@ -96,8 +96,6 @@ def _read_shipped(place: ShippedPlace) -> OpenShape:
 
 def _open_shape(shape: Shape, *, key: str, reference: str, name: str) -> OpenShape:
     scaled = normalize(shape)
-    if isinstance(scaled, TriangleMesh):
-        scaled.vertex_normals  # noqa: B018 - found here, kept there: the window's thread must not look for them
     return OpenShape(key=key, reference=reference, name=name, shape=scaled, diameter=_ratio(shape, scaled))
 
 

@@ -17,9 +17,14 @@ ACCURACY = 1e-4
 """Relative error of what is shown: below what a colour or a line can show, and a third faster than the core's own."""
 
 
-class OperatorStore:
-    """The latest operators and heat flows of the open shapes. Belongs to the thread that computes.
+_CURVES = 2
+"""Flows kept for curves: at α and at 0. Each holds a factorisation for every angle, up to a quarter of a gigabyte."""
 
+
+class OperatorStore:
+    """The latest operators and heat flows of the open shapes.
+
+    Belongs to the thread that computes: SciPy never gives back the memory of a factorisation that another thread drops.
     Keys hold the shapes themselves: an id could be given again to another shape.
     """
 
@@ -27,6 +32,8 @@ class OperatorStore:
         self._bases: _Latest[AnisotropicLaplacian] = _Latest()
         self._operators: _Latest[AnisotropicLaplacian] = _Latest()
         self._flows: _Latest[HeatFlow] = _Latest()
+        self._curves: _Latest[HeatFlow] = _Latest()
+        self._curves.resize(_CURVES)
         self.make_room(1)
 
     def make_room(self, shapes: int) -> None:
@@ -37,7 +44,7 @@ class OperatorStore:
 
     def keep_only(self, shapes: tuple[OpenShape, ...]) -> None:
         """Forget what belongs to other shapes: the factorisations of a large one hold gigabytes."""
-        for kept in (self._bases, self._operators, self._flows):
+        for kept in (self._bases, self._operators, self._flows, self._curves):
             kept.keep_only(shapes)
 
     def laplacian(self, shape: OpenShape, conductivity: Conductivity, alpha: float) -> AnisotropicLaplacian:
@@ -51,10 +58,11 @@ class OperatorStore:
     def flow(self, shape: OpenShape, conductivity: Conductivity, alpha: float, purpose: str) -> HeatFlow:
         """A heat flow that keeps its factorisation; each `purpose` has its own, so that none evicts another's."""
         key = (shape, conductivity, alpha, purpose)
-        found = self._flows.get(key)
+        flows = self._curves if purpose == "curves" else self._flows
+        found = flows.get(key)
         if found is None:
             laplacian = self.laplacian(shape, conductivity, alpha)
-            found = self._flows.put(key, HeatFlow(laplacian, tolerance=ACCURACY, progress=go_on))
+            found = flows.put(key, HeatFlow(laplacian, tolerance=ACCURACY, progress=go_on))
         return found
 
     def _base(self, shape: OpenShape, conductivity: Conductivity) -> AnisotropicLaplacian:

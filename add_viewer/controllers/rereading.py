@@ -27,6 +27,13 @@ class Rereading:
             known = self._known[stamp] = self._read(reference)
         return known
 
+    def lighten(self, in_use: tuple[OpenShape, ...]) -> None:
+        """Let shapes that are not `in_use`, kept for undo alone, take as little room as they can."""
+        meshes = [shape.shape for shape in in_use]
+        for known in list(self._known.values()):
+            if not any(known.shape is mesh for mesh in meshes):
+                known.travel_light()
+
 
 def _stamp(reference: str) -> Stamp:
     """The file as it is now, by time and size; shipped shapes never change."""

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
 from add_core.geometry import PointCloud, TriangleMesh
+
+from .coarse import Coarse, coarse_of
 
 Shape = TriangleMesh | PointCloud
 FloatArray = NDArray[np.float64]
@@ -49,6 +52,24 @@ class OpenShape:
     @property
     def vertex_count(self) -> int:
         return self.shape.vertex_count
+
+    @cached_property
+    def coarse(self) -> Coarse | None:
+        """What is drawn in its place while the camera moves; None if it is small."""
+        return coarse_of(self.shape)
+
+    def make_ready(self) -> OpenShape:
+        """Find what drawing needs, before the window's thread asks for it; returns itself."""
+        for mesh in (self.shape, None if self.coarse is None else self.coarse.shape):
+            if isinstance(mesh, TriangleMesh):
+                mesh.vertex_normals  # noqa: B018 - found once, kept there
+        return self
+
+    def travel_light(self) -> None:
+        """Forget what follows from the rest, three quarters of it, while only undo keeps this."""
+        for part in (self, self.shape):
+            for name in vars(part).keys() - {known.name for known in fields(part)}:
+                vars(part).pop(name, None)
 
     def mirror(self, vertex: int) -> int | None:
         """The mirror image of `vertex`; None if unknown or `vertex` lies on the mirror plane."""

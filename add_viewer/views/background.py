@@ -53,8 +53,14 @@ class BackgroundViews:
         window.session.choose_field(kind="distance", descriptor=path)
 
     def offer_to_go_on(self) -> None:
-        """Show the list if an earlier window left something that can go on."""
+        """Show the list if an earlier window left something that can go on, now or once its death is known."""
         if any(job.state == "interrupted" for job in self._jobs.listed):
+            self.open_jobs()
+        self._inherited = {job.id for job in self._jobs.listed if job.state == "running"}
+        self._jobs.changed.connect(self._offer_inherited)
+
+    def _offer_inherited(self, id: str) -> None:
+        if id in self._inherited and id in self._jobs and self._jobs[id].state == "interrupted":
             self.open_jobs()
 
     def show_theme(self, theme: Theme) -> None:

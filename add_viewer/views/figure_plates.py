@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -43,10 +44,14 @@ class Plate:
 
 def plates_of(views: Sequence[ShapeView], scale: float) -> list[Plate]:
     """The views as they stand, `scale` times as fine as on the screen, all cut alike: sizes stay comparable."""
+    return cut_alike([step() for step in plate_steps(views, scale)])
+
+
+def plate_steps(views: Sequence[ShapeView], scale: float) -> list[Callable[[], Plate]]:
+    """What draws each view's plate, uncut: a fine one takes a second, so that the window works between two."""
     rows = sorted({view.y() for view in views})
     columns = sorted({view.x() for view in views})
-    plates = [_plate(view, rows.index(view.y()), columns.index(view.x()), scale) for view in views]
-    return _cut(plates)
+    return [partial(_plate, view, rows.index(view.y()), columns.index(view.x()), scale) for view in views]
 
 
 def _plate(view: ShapeView, row: int, column: int, scale: float) -> Plate:
@@ -64,7 +69,7 @@ def _bar(field: ShapeField) -> Bar | None:
     return Bar(field.title, notes, tuple(field.scale.ticks()), field.tones)
 
 
-def _cut(plates: list[Plate]) -> list[Plate]:
+def cut_alike(plates: list[Plate]) -> list[Plate]:
     """All views cut to the smallest window that holds every shape, seen from the middle of each view."""
     height = max(plate.pixels.shape[0] for plate in plates)
     width = max(plate.pixels.shape[1] for plate in plates)

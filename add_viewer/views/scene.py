@@ -89,7 +89,8 @@ class SceneView(QWidget):
         self._pool, self._used = [*chosen, *free], len(chosen)
         for view in free:
             view.bind(None, 0)
-            view.hide()
+            self._grid.removeWidget(view)
+            view.rest()
         old = [view for view in chosen if view.shape is not None and view in kept.values()]
         for view, (panel, key) in zip(chosen, wanted, strict=True):
             fresh = view.bind(key, panel)

@@ -136,9 +136,8 @@ class Soaker:
         for shape in self.session.state.shapes:
             self.session.close_shape(shape.key)
         self.settle()
-        operators = self.assembly.operators
-        for cache in (operators._bases, operators._operators, operators._flows):
-            cache._kept.clear()
+        self.assembly._give_back()  # on the thread that factorised: SciPy frees nothing on another
+        self.settle()
         self.assembly.exploration.answers._known.clear()
         self.assembly.exploration.best._graphs.clear()
         true_match.cache_clear()

@@ -42,10 +42,12 @@ class Canvas(OrbitView):
         self._marks.clear()
         self._best.clear()
         if self._body is not None:
-            self.renderer.RemoveActor(self._body.actor)
-        self._body = None if opened is None else Surface(opened.shape)
+            for actor in self._body.actors:
+                self.renderer.RemoveActor(actor)
+        self._body = None if opened is None else Surface(opened.shape, opened.coarse)
         if opened is not None and self._body is not None:
-            self.renderer.AddActor(self._body.actor)
+            for actor in self._body.actors:
+                self.renderer.AddActor(actor)
             self.camera_model.orient(up, front)
             self.look("front")
             self._step_aside(opened.shape)
@@ -163,8 +165,13 @@ class Canvas(OrbitView):
 
     # -- painting -----------------------------------------------------------------------------------------------------
 
+    def show_moving(self, on: bool) -> None:
+        if self._body is not None:
+            self._body.show_moving(on)
+
     def picture(self, scale: float, *, transparent: bool) -> QImage:
         """The scene alone at `scale` times the widget's size in device-independent pixels."""
+        self.show_moving(False)
         self.grabFramebuffer()  # a hidden or stale widget paints first
         factor = max(1, round(scale / self.devicePixelRatioF()))
         image = take_picture(self, factor, transparent=transparent)

@@ -11,6 +11,7 @@ from vtkmodules.vtkCommonCore import vtkLookupTable
 from add_core.drawing.colour_maps import Tones, tone_map
 from add_core.geometry import TriangleMesh
 
+from ...models.coarse import Coarse
 from ...models.shapes import Shape
 from .picker import CloudPicker, MeshPicker
 
@@ -21,19 +22,38 @@ USUAL_HEIGHT = 700.0
 
 
 class Surface:
-    """One shape in the scene. `show_field` only writes numbers into the array that VTK already draws."""
+    """One shape in the scene. `show_field` only writes numbers into the array that VTK already draws.
 
-    def __init__(self, shape: Shape) -> None:
+    coarse : drawn in its place while the camera moves; None draws it always.
+    """
+
+    def __init__(self, shape: Shape, coarse: Coarse | None = None) -> None:
         self.shape = shape
+        self._coarse = coarse
+        self._stand_in = None if coarse is None else Surface(coarse.shape)
         self.dataset = _dataset(shape)
         self._tones: Tones = "kernel"
         self.dataset.point_data[_FIELD] = np.zeros(shape.vertex_count, dtype=np.float32)
         self.dataset.point_data.active_scalars_name = _FIELD
         self.picker = MeshPicker(self.dataset) if isinstance(shape, TriangleMesh) else CloudPicker(self.dataset)
         self.actor = self._make_actor()
+        self.show_moving(False)
+
+    @property
+    def actors(self) -> list[pv.Actor]:
+        """Everything that belongs into the scene."""
+        return [self.actor] if self._stand_in is None else [self.actor, self._stand_in.actor]
+
+    def show_moving(self, on: bool) -> None:
+        """Draw the stand-in, or the shape itself."""
+        if self._stand_in is not None:
+            self.actor.SetVisibility(not on)
+            self._stand_in.actor.SetVisibility(on)
 
     def show_field(self, position: FloatArray | None, tones: Tones = "kernel") -> None:
         """Colour by `position` (n,) in [0, 1] on the map of `tones`; None is bare skin."""
+        if self._stand_in is not None and self._coarse is not None:
+            self._stand_in.show_field(None if position is None else position[self._coarse.kept], tones)
         if position is None:
             tones = "kernel"
         if tones != self._tones:
@@ -45,6 +65,8 @@ class Surface:
 
     def show_colours(self, colours: FloatArray) -> None:
         """Colour by `colours` (n, 3), sRGB in [0, 1]."""
+        if self._stand_in is not None and self._coarse is not None:
+            self._stand_in.show_colours(colours[self._coarse.kept])
         if _COLOURS not in self.dataset.point_data:
             self.dataset.point_data.set_array(np.zeros((self.shape.vertex_count, 3), dtype=np.uint8), _COLOURS)
         self.actor.mapper.SelectColorArray(_COLOURS)
@@ -60,6 +82,8 @@ class Surface:
         """Draw the discs of a cloud `factor` times their usual size."""
         if not isinstance(self.shape, TriangleMesh):
             self.actor.prop.point_size = factor * _point_size(self.shape)
+            if self._stand_in is not None:
+                self._stand_in.show_point_size(factor)
 
     def show_wireframe(self, on: bool) -> None:
         """Draw the triangles' edges over the surface."""

@@ -38,13 +38,18 @@ class View3D(QtInteractor):  # type: ignore[misc]
     def draw_moving(self) -> None:
         """Paint soon, with one sample a pixel: while things move, speed counts; edges are smoothed once they rest."""
         self.render_window.SetMultiSamples(0)
+        self.show_moving(True)
         self._stillness.start()
         self.update()
 
     def _refine(self) -> None:
         if not getattr(self, "_closed", False):
             self.render_window.SetMultiSamples(self.samples)
+            self.show_moving(False)
             self.update()
+
+    def show_moving(self, on: bool) -> None:
+        """Draw what is quick to draw, or everything. Subclasses know what that is."""
 
     def _render(self, *_args: Any, **_options: Any) -> None:
         self._rendered = True

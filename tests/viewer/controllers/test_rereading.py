@@ -3,6 +3,7 @@
 import gc
 
 import pytest
+from numpy.testing import assert_array_equal
 
 from add_core.errors import ShapeFileError
 from add_viewer.controllers.rereading import Rereading
@@ -53,3 +54,14 @@ def test_what_cannot_be_read_is_tried_again(reading):
         with pytest.raises(ShapeFileError):
             reader("bad")
     assert read == ["bad", "bad"]
+
+
+def test_shapes_that_undo_alone_keeps_forget_what_follows_from_the_rest(reading):
+    _, reader = reading
+    closed, shown = reader("closed").make_ready(), reader("shown").make_ready()
+    normals = closed.shape.vertex_normals.copy()
+    reader.lighten((shown,))
+    assert "vertex_normals" not in vars(closed.shape)
+    assert "vertex_normals" in vars(shown.shape)
+    assert_array_equal(closed.shape.vertex_normals, normals)
+    assert closed.coarse is None

@@ -5,6 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from PySide6.QtCore import Qt
 from PySide6.QtGui import QImage
 
 from add_viewer.views.figure_dialog import FigureDialog
@@ -26,9 +27,16 @@ def heated(person, make_torus, qtbot):
     return person
 
 
-def test_an_svg_has_text_curves_and_shapes(heated, tmp_path: Path):
+def save(person, qtbot, path, choice):
+    figures = person.assembly.figures
+    figures.save(path, choice)
+    assert figures.is_running, "the window goes on"
+    qtbot.waitUntil(lambda: not figures.is_running, timeout=90000)
+
+
+def test_an_svg_has_text_curves_and_shapes(heated, qtbot, tmp_path: Path):
     path = tmp_path / "figure.svg"
-    heated.assembly.figures.save(path, COARSE)
+    save(heated, qtbot, path, COARSE)
     svg = path.read_text(encoding="utf-8")
     words = re.sub(r"<[^>]+>", " ", svg)
     for text in ("left", "right", "Heat kernel h(x, ·)", "AHKS over θ", "direction θ"):
@@ -37,19 +45,19 @@ def test_an_svg_has_text_curves_and_shapes(heated, tmp_path: Path):
     assert re.search(r'width="510\.\d+pt"', svg)  # 180 mm
 
 
-def test_a_pdf_is_as_wide_as_asked_for(heated, tmp_path: Path):
+def test_a_pdf_is_as_wide_as_asked_for(heated, qtbot, tmp_path: Path):
     path = tmp_path / "figure.pdf"
-    heated.assembly.figures.save(path, PageChoice(width=120.0, dpi=72))
+    save(heated, qtbot, path, PageChoice(width=120.0, dpi=72))
     data = path.read_bytes()
     assert data.startswith(b"%PDF")
     width = float(re.search(rb"/MediaBox \[ 0 0 ([\d.]+)", data)[1])
     assert width == pytest.approx(120 / 25.4 * 72, abs=0.1)
 
 
-def test_a_png_is_white_with_the_shapes_and_their_heat_on_it(heated, tmp_path: Path):
+def test_a_png_is_white_with_the_shapes_and_their_heat_on_it(heated, qtbot, tmp_path: Path):
     path = tmp_path / "figure.png"
     heated.window.display.set("theme", "dark")
-    heated.assembly.figures.save(path, PageChoice(dpi=100))
+    save(heated, qtbot, path, PageChoice(dpi=100))
     image = QImage(str(path))
     assert image.width() == int(180 / 25.4 * 100)
     pixels = pixels_of(image)[..., :3].astype(int)
@@ -87,6 +95,18 @@ def test_the_dialog_shows_the_page_and_how_large_it_is(heated, qtbot):
     dialog.reject()
 
 
-def test_a_figure_that_cannot_be_written_is_told(heated, tmp_path: Path):
-    heated.assembly.figures.save(tmp_path / "nowhere" / "figure.svg", COARSE)
+def test_a_figure_that_cannot_be_written_is_told(heated, qtbot, tmp_path: Path):
+    save(heated, qtbot, tmp_path / "nowhere" / "figure.svg", COARSE)
     assert "figure.svg was not saved" in heated.window.message.text.text()
+
+
+def test_a_figure_is_cancelled_between_two_views_and_leaves_nothing(heated, qtbot, tmp_path: Path):
+    figures = heated.assembly.figures
+    figures.save(tmp_path / "figure.png", COARSE)
+    assert not heated.window.menus.actions["figure"].isEnabled()
+    qtbot.waitUntil(lambda: figures.bar.progress.value() == 1)
+    qtbot.mouseClick(figures.bar.cancel, Qt.MouseButton.LeftButton)
+    assert not figures.is_running
+    qtbot.wait(50)
+    assert list(tmp_path.glob("figure*")) == []
+    assert heated.window.menus.actions["figure"].isEnabled()
