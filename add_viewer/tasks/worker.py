@@ -43,6 +43,7 @@ class Worker(QThread):
     """
 
     progressed = Signal(str, float)
+    _stepped = Signal(str, float)
     _answered = Signal(object)
 
     def __init__(self, parent: QObject | None = None) -> None:
@@ -53,6 +54,8 @@ class Worker(QThread):
         self._unanswered = 0
         self._begun = self._told = 0.0
         self._answered.connect(self._answer, Qt.ConnectionType.QueuedConnection)
+        # Whoever listens draws, and is perhaps no QObject: only from the window's thread may it be called.
+        self._stepped.connect(self._pass_on, Qt.ConnectionType.QueuedConnection)
 
     def submit(
         self,
@@ -108,7 +111,7 @@ class Worker(QThread):
                 answer = (job.failed, error)
             finally:
                 if self._told:
-                    self.progressed.emit("", 0.0)
+                    self._stepped.emit("", 0.0)
             if not self._stopping:
                 self._answered.emit(answer)
 
@@ -130,7 +133,7 @@ class Worker(QThread):
         now = time.monotonic()
         if now - self._begun > PATIENCE and now - self._told > _TELL:
             self._told = now
-            self.progressed.emit(job.lane, done / total)
+            self._stepped.emit(job.lane, done / total)
 
     def _is_overtaken(self, job: _Job) -> bool:
         """Whether something waits in an earlier lane, or something newer in the job's own."""
@@ -151,3 +154,8 @@ class Worker(QThread):
             callback, value = answer
             self._unanswered -= 1
             callback(value)
+
+    @Slot(str, float)
+    def _pass_on(self, lane: str, share: float) -> None:
+        if not self._stopping:
+            self.progressed.emit(lane, share)

@@ -103,7 +103,7 @@ def test_work_that_asks_between_its_steps_ends_for_newer_and_begins_again_after_
 
 def test_long_work_tells_how_far_it_is_and_can_be_cancelled(worker, qtbot, monkeypatch):
     monkeypatch.setattr("add_viewer.tasks.worker.PATIENCE", 0.0)
-    told, failed = [], []
+    told, failed, threads = [], [], set()
 
     def endless():
         while True:
@@ -111,11 +111,13 @@ def test_long_work_tells_how_far_it_is_and_can_be_cancelled(worker, qtbot, monke
             time.sleep(0.001)
 
     worker.progressed.connect(lambda lane, share: told.append((lane, share)))
+    worker.progressed.connect(lambda lane, share: threads.add(threading.current_thread()))
     worker.submit("kernel", endless, done=failed.append, failed=failed.append)
     qtbot.waitUntil(lambda: ("kernel", 0.25) in told)
     worker.cancel()
     qtbot.waitUntil(lambda: told[-1] == ("", 0.0) and worker.is_idle)
     assert isinstance(failed[0], Cancelled)
+    assert threads == {threading.main_thread()}
     worker.submit("kernel", endless, done=failed.append, failed=failed.append)
     qtbot.waitUntil(lambda: told[-1] == ("kernel", 0.25))
     worker.stop()  # does not wait for ever
