@@ -11,6 +11,7 @@ import os
 import sys
 import tempfile
 import time
+from dataclasses import fields
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "viewer"))
@@ -65,8 +66,10 @@ def main() -> int:
     later = Soaker(again, 0, references, folder, thorough=False)
     again.keeping.open(path)
     later.settle()
-    if later.kept() != kept:
-        faults.append("the session did not come back as it was")
+    back = later.kept()
+    differing = [each.name for each in fields(kept) if getattr(kept, each.name) != getattr(back, each.name)]
+    if differing:
+        faults.append(f"the session did not come back as it was: {', '.join(differing)} differ")
     again.stop()
     print(
         f"{len(soaker.done)} actions, seed {options.seed}, {time.perf_counter() - begun:.0f} s; memory +{growth:.0f} MB"
