@@ -38,7 +38,7 @@ from add_core.spectra import compute_spectra
 
 BODIES = range(0, 112, 2)
 SETTINGS = TrainingSettings(
-    steps=3000, pairs=160, noise=0.15, averaging=0.99, arithmetic="bfloat16", checkpoint_every=250, validate_every=250
+    steps=1500, pairs=160, noise=0.15, averaging=0.99, arithmetic="bfloat16", checkpoint_every=250, validate_every=250
 )
 ISOTROPIC = ("ADD1", "ADD3", "mADD1", "mADD3")
 """Networks whose isotropic twins are trained too; that of mADD3 is the isotropic network of the figures."""
