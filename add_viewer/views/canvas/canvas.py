@@ -8,6 +8,8 @@ from numpy.typing import NDArray
 from PySide6.QtCore import QPointF
 from PySide6.QtGui import QImage, QResizeEvent
 
+from add_core.geometry import TriangleMesh
+
 from ...models.fields import ShapeField
 from ...models.picks import Pick
 from ...models.results import DirectionField
@@ -62,14 +64,14 @@ class Canvas(OrbitView):
         else:
             self._body.show_field(None if field is None else field.position, "kernel" if field is None else field.tones)
         shape = self._body.shape
-        self._best.show_best(() if field is None else field.best, shape.vertices, _normals(shape))
+        self._best.show_best(() if field is None else field.best, *_places(shape))
         self.draw_moving()
 
     def show_picks(self, picks: tuple[Pick, ...]) -> None:
         """Mark the picked points."""
         if self._body is not None:
             shape = self._body.shape
-            self._marks.show_picks(picks, shape.vertices, _normals(shape))
+            self._marks.show_picks(picks, *_places(shape))
             self.update()
 
     def show_directions(self, field: DirectionField | None) -> None:
@@ -96,9 +98,14 @@ class Canvas(OrbitView):
     def show_point_size(self, factor: float) -> None:
         """Draw the discs of a cloud `factor` times as large as they need to be to touch each other."""
         self._point_size = factor
+        self._size_points()
+        self.update()
+
+    def _size_points(self, finer: int = 1) -> None:
+        """In pixels: on a picture `finer` times as fine, a disc has as many times more across."""
         if self._body is not None:
-            self._body.show_point_size(factor * self.height() / USUAL_HEIGHT)
-            self.update()
+            pixels = finer * self.devicePixelRatioF() * self.height()
+            self._body.show_point_size(self._point_size * pixels / USUAL_HEIGHT)
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         super().resizeEvent(event)
@@ -174,13 +181,21 @@ class Canvas(OrbitView):
         self.show_moving(False)
         self.grabFramebuffer()  # a hidden or stale widget paints first
         factor = max(1, round(scale / self.devicePixelRatioF()))
+        self._size_points(factor)
         image = take_picture(self, factor, transparent=transparent)
+        self._size_points()
         self.update()
         return image
 
 
-def _normals(shape: Shape) -> FloatArray | None:
-    return getattr(shape, "vertex_normals", None) if not hasattr(shape, "normals") else shape.normals
+def _places(shape: Shape) -> tuple[FloatArray, FloatArray | None]:
+    """Where marks go, (n, 3), and what they stand on: the discs of a cloud are as high as wide."""
+    if isinstance(shape, TriangleMesh):
+        return shape.vertices, shape.vertex_normals
+    if shape.normals is None:
+        return shape.vertices, None
+    disc = 0.5 * np.ptp(shape.vertices, axis=0).max() / np.sqrt(shape.vertex_count)
+    return shape.vertices + disc * shape.normals, shape.normals
 
 
 def _add_lights(view: OrbitView) -> None:

@@ -142,3 +142,18 @@ def _pixels(each):
     image = each.canvas.grabFramebuffer().convertToFormat(QImage.Format.Format_RGB888)
     flat = np.frombuffer(image.constBits(), dtype=np.uint8).reshape(image.height(), image.bytesPerLine())
     return flat[:, : 3 * image.width()].reshape(image.height(), image.width(), 3).astype(int)
+
+
+def test_the_discs_of_a_cloud_grow_with_the_picture(people, qtbot):
+    """Twice as many pixels must not show gaps between the points."""
+    people.open("clouds/0")
+    qtbot.waitUntil(lambda: people.session.state.active_key == "clouds/0")
+    canvas = people.window.scene.active_view.canvas
+    canvas.fit()
+
+    def covered(scale):
+        image = canvas.picture(scale, transparent=True)
+        alpha = np.frombuffer(image.constBits(), dtype=np.uint8).reshape(image.height(), image.width(), 4)[..., 3]
+        return (alpha > 0).mean()
+
+    assert covered(3) == pytest.approx(covered(1), rel=0.06)
