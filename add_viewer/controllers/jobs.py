@@ -18,6 +18,8 @@ MOST_AT_ONCE = 2
 
 PASSING_KINDS = frozenset({"describe", "spectra", "match", "symmetry"})
 """Whoever asked for them is gone with the window; the next one asks anew, and finds their spectra in the cache."""
+MOST_USED, _USED = 12, ("done", "cancelled")
+"""Passing jobs that stay in the list when they are over; those that failed stay until a person dismisses them."""
 
 _COMPLAINT = "add-core: "
 _STOPPED_BY_OTHERS = frozenset({-15, -9, -2, 130})
@@ -209,6 +211,7 @@ class JobsController:
                 self._ended(id, status, words)
             finally:  # whatever becomes of one job, the others have their turn
                 self._start_next()
+                self._tidy()
 
         return said, ended
 
@@ -239,6 +242,12 @@ class JobsController:
             self._fail(job, complaint or f"It ended with status {status} and said nothing.")
         else:
             self._put(replace(job, state="interrupted", message=_interruption(job)))
+
+    def _tidy(self) -> None:
+        """Take answers off the list that were used long ago: there is one for each shape and descriptor."""
+        used = [job for job in self._jobs.all if job.request.kind in PASSING_KINDS and job.state in _USED]
+        for job in used[: max(len(used) - MOST_USED, 0)]:
+            self._dismiss(job.id)
 
     def _fail(self, job: Job, reason: str) -> None:
         self._put(replace(job, state="failed", message=reason))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from contextlib import suppress
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol
 
@@ -175,7 +176,10 @@ class Recovery:
 
 
 def _camera(view: Any, number: int) -> CameraPlace:
-    model = view.canvas.camera_model
+    """Of a camera that shows the whole shape only the side is kept: how far away it is depends on the view."""
+    model, fitted = view.canvas.camera_model, view.canvas.is_fitted
+    kept = CameraPlace(number, view.panel, float(model.azimuth), float(model.elevation), fitted=fitted)
+    if fitted:
+        return kept
     x, y, z = (float(each) for each in model.focal)
-    angles = (float(model.azimuth), float(model.elevation))
-    return CameraPlace(number, view.panel, *angles, (x, y, z), float(model.distance), fitted=view.canvas.is_fitted)
+    return replace(kept, focal=(x, y, z), distance=float(model.distance))

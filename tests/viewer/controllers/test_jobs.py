@@ -118,6 +118,17 @@ def test_a_result_finishes_a_job_once(world):
     assert (world.jobs[id].state, world.jobs[id].result) == ("done", {"output": "x.npz"})
 
 
+def test_answers_that_were_used_long_ago_leave_the_list_and_the_disk(world):
+    training, failed = world.start("train"), world.start("describe")
+    world.process(failed).ended(1, "add-core: no such shape")
+    world.process(training).ended(0, "")
+    answers = [world.start("describe") for _ in range(15)]
+    for id in answers:
+        world.process(id).ended(0, "")
+    assert [job.id for job in world.jobs.all] == [training, failed, *answers[3:]]
+    assert [world.jobs.home.joinpath(id).exists() for id in answers] == [False] * 3 + [True] * 12
+
+
 def test_time_left_follows_the_latest_speed_and_not_what_was_said_before(world):
     id = world.start()
     world.say(id, step(5, 100), is_news=False)
