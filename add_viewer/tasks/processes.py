@@ -41,7 +41,7 @@ if hasattr(os, "nice"):
     os.nice(10)
 try:  # Linux shares its cores out among sessions before it looks at the niceness of a process in one of them
     with open("/proc/self/autogroup", "w") as priority:
-        priority.write("5")
+        priority.write("8")
 except OSError:
     pass
 from add_core.cli import main

@@ -84,6 +84,7 @@ class CurvePanel(QWidget):
         for event in ("button_press_event", "motion_notify_event"):
             self.canvas.mpl_connect(event, self._dragged)
         self.canvas.mpl_connect("button_release_event", lambda _event: self._session.end_gesture())
+        self._session.picks_changed.connect(self._postpone)
         self._results.curves_changed.connect(self._show_curves)
         self._session.diffusion_changed.connect(self._move)
         self._results.kernel_changed.connect(self._move_with_kernel)
@@ -120,6 +121,11 @@ class CurvePanel(QWidget):
     def _renew(self, patience: int = _RENEWAL_PATIENCE) -> None:
         if not self._renewal.isActive():
             self._renewal.start(patience)
+
+    def _postpone(self) -> None:
+        """Axes that are due for the last pick wait until the shapes show this one."""
+        if self._renewal.isActive():
+            self._renewal.start(_RENEWAL_PATIENCE)
 
     def _place(self) -> None:
         ratio = self.figure.dpi / self.canvas.device_pixel_ratio / 72.0  # device-independent pixels in a point

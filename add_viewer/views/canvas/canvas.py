@@ -72,7 +72,7 @@ class Canvas(OrbitView):
         if self._body is not None:
             shape = self._body.shape
             self._marks.show_picks(picks, *_places(shape))
-            self.update()
+            self.draw_soon()  # a field that follows from them is on its way
 
     def show_directions(self, field: DirectionField | None) -> None:
         """Draw the direction field, or take it away."""

@@ -16,6 +16,9 @@ from pyvistaqt import QtInteractor
 SAMPLES = 4
 """Samples a pixel in pictures at rest; in software each doubles the time."""
 
+SOON = 80
+"""Milliseconds that a small change waits for a larger one, to be drawn with it."""
+
 STILL = 200
 """Milliseconds without a change after which a picture is at rest."""
 
@@ -32,6 +35,8 @@ class View3D(QtInteractor):  # type: ignore[misc]
         self.samples = SAMPLES
         self._stillness = QTimer(self, singleShot=True, interval=STILL)
         self._stillness.timeout.connect(self._refine)
+        self._waiting = QTimer(self, singleShot=True, interval=SOON)
+        self._waiting.timeout.connect(self.draw_moving)
         self._Iren.EnableRenderOff()
         self._Iren.SetInteractorStyle(None)
 
@@ -41,6 +46,11 @@ class View3D(QtInteractor):  # type: ignore[misc]
         self.show_moving(True)
         self._stillness.start()
         self.update()
+
+    def draw_soon(self) -> None:
+        """Paint within a moment, and only once if what is shown changes meanwhile."""
+        if not self._waiting.isActive():
+            self._waiting.start()
 
     def _refine(self) -> None:
         if not getattr(self, "_closed", False):
@@ -60,6 +70,7 @@ class View3D(QtInteractor):  # type: ignore[misc]
         iren: Any = self.__dict__.get("_Iren")
         if getattr(self, "_closed", False) or not hasattr(iren, "EnableRenderOn"):
             return
+        self._waiting.stop()
         with self.rendering_at_once():
             super().paintGL()
 
