@@ -90,7 +90,7 @@ class SceneView(QWidget):
         for view in free:
             view.bind(None, 0)
             self._grid.removeWidget(view)
-            view.rest()
+            view.hide()
         old = [view for view in chosen if view.shape is not None and view in kept.values()]
         for view, (panel, key) in zip(chosen, wanted, strict=True):
             fresh = view.bind(key, panel)

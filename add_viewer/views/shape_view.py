@@ -198,12 +198,6 @@ class ShapeView(QWidget):
         self._room_right = pixels
         self._place_labels()
 
-    def rest(self) -> None:
-        """Hide, as small as can be: a hidden view keeps the pictures of its size, tens of megabytes at full size."""
-        if self.isVisible():
-            self.resize(1, 1)
-            self.hide()
-
     def show_as_source(self, on: bool) -> None:
         """Mark the view of the active shape among several."""
         self.label.show_source(on)

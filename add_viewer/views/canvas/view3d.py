@@ -10,7 +10,7 @@ from typing import Any
 os.environ.setdefault("QT_API", "pyside6")
 
 from PySide6.QtCore import QEvent, QTimer
-from PySide6.QtGui import QDragEnterEvent, QDropEvent, QEnterEvent, QKeyEvent
+from PySide6.QtGui import QDragEnterEvent, QDropEvent, QEnterEvent, QKeyEvent, QResizeEvent
 from pyvistaqt import QtInteractor
 
 SAMPLES = 4
@@ -65,6 +65,10 @@ class View3D(QtInteractor):  # type: ignore[misc]
         self._rendered = True
         if not getattr(self, "_closed", False):
             self.update()
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        if not getattr(self, "_closed", False):  # its graphics context is gone by then
+            super().resizeEvent(event)
 
     def paintGL(self) -> None:
         iren: Any = self.__dict__.get("_Iren")

@@ -1,4 +1,4 @@
-"""Large shapes turn as a coarse stand-in, rest as themselves, and views that are not needed take no room."""
+"""Large shapes turn as a coarse stand-in and rest as themselves."""
 
 import numpy as np
 import pytest
@@ -44,14 +44,3 @@ def test_a_picture_never_shows_the_stand_in(large):
     large.canvas.steer("rotate", (10.0, 0.0))
     large.canvas.picture(1.0, transparent=False)
     assert shown(large) == [6890]
-
-
-def test_a_view_that_is_not_needed_keeps_no_large_picture(person, qtbot):
-    person.open("humans/0")
-    person.open("humans/1")
-    second = person.window.scene.views[1]
-    person.session.close_shape("humans/1")
-    assert not second.isVisible()
-    assert max(second.canvas.width(), second.canvas.height()) < 100
-    person.open("humans/1")
-    qtbot.waitUntil(lambda: person.window.scene.views[1].canvas.width() > 200)
