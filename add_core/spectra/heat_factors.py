@@ -22,7 +22,7 @@ from .ordering import known_dissection
 Progress = Callable[[int, int], None]
 """Told how many steps of how many are done; what it raises ends the computation."""
 
-MOST_SUPERLU = 30_000
+MOST_SUPERLU = 60_000
 """Vertices up to which SuperLU is used: its order is found sooner, but at 200K vertices dense fronts are 15 times as
 fast and hold half as much.
 """
