@@ -274,6 +274,7 @@ class Assembly:
             (self.results.kernel is not None or not heats)
             and len(curves) == len(picks)
             and all(c.is_complete for c in curves)
+            and not self.window.curves.is_due
         )
 
     def _save_screenshot(self) -> None:

@@ -119,12 +119,17 @@ class CurvePanel(QWidget):
             self._draw_moving()
 
     def _renew(self, patience: int = _RENEWAL_PATIENCE) -> None:
-        if not self._renewal.isActive():
+        if not self.is_due:
             self._renewal.start(patience)
+
+    @property
+    def is_due(self) -> bool:
+        """Whether there are curves that wait to be drawn."""
+        return self._renewal.isActive()
 
     def _postpone(self) -> None:
         """Axes that are due for the last pick wait until the shapes show this one."""
-        if self._renewal.isActive():
+        if self.is_due:
             self._renewal.start(_RENEWAL_PATIENCE)
 
     def _place(self) -> None:

@@ -116,6 +116,20 @@ def test_typing_changes_the_kernel_and_the_picture(person, qtbot, field, typed):
         assert changed.time == pytest.approx(0.05)
 
 
+def test_a_picture_for_a_file_waits_for_curves_that_are_there_but_not_drawn(person, qtbot):
+    person.open()
+    results, told = person.results, []
+    results.curves_changed.connect(
+        lambda: told.append(bool(results.curves) and all(each.is_complete for each in results.curves))
+    )
+    ready = []
+    results.curves_changed.connect(lambda: ready.append(person.assembly._settled()))
+    person.click(THIGH)
+    qtbot.waitUntil(lambda: bool(told) and told[-1], timeout=20000)
+    assert ready[-1] is False
+    qtbot.waitUntil(person.assembly._settled)
+
+
 def test_a_vertex_number_can_be_typed(person, qtbot):
     person.open()
     qtbot.keyClick(person.window, Qt.Key.Key_G, CONTROL)
