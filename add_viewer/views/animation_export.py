@@ -12,19 +12,14 @@ from PySide6.QtWidgets import (
     QDialog,
     QDialogButtonBox,
     QFileDialog,
-    QFrame,
-    QHBoxLayout,
-    QLabel,
-    QProgressBar,
-    QPushButton,
     QVBoxLayout,
     QWidget,
 )
 
-from ..models.results import Notice
 from .animation import AnimationChoice, Recorder, write_gif
 from .forms import form_of
-from .theme import GRID, Theme
+from .slow_export import SlowExport
+from .theme import GRID
 
 if TYPE_CHECKING:
     from .main_window import MainWindow
@@ -77,52 +72,18 @@ class AnimationDialog(QDialog):
         return AnimationChoice(*(box.currentData() for box in boxes))
 
 
-class RecordingBar(QFrame):
-    """How far the recording is, and the way out."""
-
-    def __init__(self) -> None:
-        super().__init__()
-        self.setObjectName("recording")
-        self.text, self.progress, self.cancel = QLabel(), QProgressBar(), QPushButton("Cancel")
-        self.progress.setTextVisible(False)
-        row = QHBoxLayout(self)
-        row.setContentsMargins(2 * GRID, GRID, 2 * GRID, GRID)
-        row.setSpacing(2 * GRID)
-        row.addWidget(self.text)
-        row.addWidget(self.progress, 1)
-        row.addWidget(self.cancel)
-        self.hide()
-
-    def show_progress(self, done: int, total: int) -> None:
-        """So many pictures of so many."""
-        self.text.setText(f"Recording picture {done} of {total}")
-        self.progress.setRange(0, total)
-        self.progress.setValue(done)
-
-    def show_theme(self, theme: Theme) -> None:
-        """A bar with the accent colour at its edge."""
-        self.setStyleSheet(
-            f"#recording {{ background: {theme.panel}; border: none; border-left: 4px solid {theme.accent};"
-            f" border-bottom: 1px solid {theme.line}; }}"
-        )
-
-
-class AnimationExport:
+class AnimationExport(SlowExport):
     """Wires dialog, recorder and writing. run : does work off the window's thread."""
 
     def __init__(self, window: MainWindow, saving: Saving, recorder: Recorder, run: Callable[..., None]) -> None:
-        self._window, self._saving, self.recorder, self._run = window, saving, recorder, run
-        self._path = Path()
-        self.bar = RecordingBar()
-        window.add_above(self.bar)
-        window.menus.on("animation", self.ask)
+        super().__init__(window, saving, run, "animation")
+        self.recorder = recorder
         self.bar.cancel.clicked.connect(recorder.cancel)
-        recorder.progressed.connect(self.bar.show_progress)
+        recorder.progressed.connect(self._show_progress)
         recorder.recorded.connect(self._recorded)
         recorder.stopped.connect(self._rest)
 
     def ask(self) -> None:
-        """Ask what moves and where to save it, then record."""
         self.dialog = AnimationDialog(sweeps=self._has_heat, parent=self._window)
         if self.dialog.exec() != QDialog.DialogCode.Accepted:
             return
@@ -133,10 +94,8 @@ class AnimationExport:
 
     def record(self, path: Path, choice: AnimationChoice) -> None:
         """Record and write; the window stays free."""
-        self._path = path
-        self._window.menus.actions["animation"].setEnabled(False)
-        self.bar.show_progress(0, choice.count)
-        self.bar.show()
+        self._begin(path)
+        self._show_progress(0, choice.count)
         self.recorder.start(choice)
 
     @property
@@ -145,26 +104,8 @@ class AnimationExport:
         moving = ("heat", "rose")
         return bool(state.picks) and any(choice.kind in moving for choice in state.choices)
 
+    def _show_progress(self, done: int, total: int) -> None:
+        self.bar.show_progress(f"Recording picture {done} of {total}", done, total)
+
     def _recorded(self, frames: list[Image.Image], choice: AnimationChoice) -> None:
-        path = self._path
-        self.bar.text.setText(f"Writing {path.name} …")
-        self._run(
-            "export",
-            lambda: self._saving.write_whole(path, lambda temporary: write_gif(temporary, frames, choice.rate)),
-            done=lambda _answer: self._written(path),
-            failed=self._failed,
-            queue=True,
-        )
-
-    def _written(self, path: Path) -> None:
-        self._rest()
-        self._saving.tell_saved(path)
-
-    def _failed(self, error: BaseException) -> None:
-        self._rest()
-        reason = self._saving.explain(error)
-        self._window.results.noticed.emit(Notice(f"{self._path.name} was not saved: {reason}"))
-
-    def _rest(self) -> None:
-        self.bar.hide()
-        self._window.menus.actions["animation"].setEnabled(bool(self._window.session.state.shapes))
+        self._write(lambda temporary: write_gif(temporary, frames, choice.rate))

@@ -12,12 +12,11 @@ from PySide6.QtCore import QTimer
 from PySide6.QtGui import QImage
 from PySide6.QtWidgets import QDialog
 
-from ..models.results import Notice
-from .animation_export import RecordingBar
 from .figure_dialog import FigureDialog, ask_figure
 from .figure_page import Page, PageChoice
 from .figure_plates import Plate, cut_alike, plate_steps, plates_of
 from .shape_view import ShapeView
+from .slow_export import SlowExport
 from .theme import LIGHT
 
 if TYPE_CHECKING:
@@ -31,27 +30,23 @@ _PAUSE = 10
 """Milliseconds for the window between two views."""
 
 
-class FigureExport:
+class FigureExport(SlowExport):
     """Takes the views' pictures, asks how the page shall be, and saves it while the window works on.
 
     run : does work off the window's thread.
     """
 
     def __init__(self, window: MainWindow, saving: Saving, run: Callable[..., None]) -> None:
-        self._window, self._saving, self._run = window, saving, run
+        super().__init__(window, saving, run, "figure")
         self._steps: list[Callable[[], Plate]] = []
         self._plates: list[Plate] = []
         self._views: list[ShapeView] = []
-        self._path, self._choice = Path(), PageChoice()
+        self._choice = PageChoice()
         self._timer = QTimer(window, singleShot=True, interval=_PAUSE)
         self._timer.timeout.connect(self._go_on)
-        self.bar = RecordingBar()
         self.bar.cancel.clicked.connect(self.cancel)
-        window.add_above(self.bar)
-        window.menus.on("figure", self.ask)
 
     def ask(self) -> None:
-        """Ask for size, contents and place, then save the figure."""
         plates = self.plates(1.0)
         dialog = FigureDialog(
             lambda choice: self._picture(plates, choice), has_curves=self._has_curves, parent=self._window
@@ -67,16 +62,13 @@ class FigureExport:
 
     def save(self, path: Path, choice: PageChoice) -> None:
         """Save the figure, its shapes as fine as asked for: one view after the other, then the page on the thread."""
-        self._path, self._choice, self._plates = path, choice, []
+        self._choice, self._plates = choice, []
         self._views = list(self._window.scene.views)
         pixels = choice.dpi * choice.cell(len({view.x() for view in self._views})) / 25.4
         shown = max(view.width() for view in self._views)
         self._steps = plate_steps(self._views, min(max(1, ceil(pixels / shown)), _FINEST))
-        self._window.menus.actions["figure"].setEnabled(False)
-        self.bar.cancel.setEnabled(True)
-        self._show_progress(f"Drawing {path.name} …")
-        self.bar.show()
-        self._timer.start()
+        self._begin(path)
+        self._draw_next()
 
     @property
     def is_running(self) -> bool:
@@ -91,42 +83,20 @@ class FigureExport:
     def _go_on(self) -> None:
         if self._window.scene.views != self._views:
             self.cancel()
-            self._window.results.noticed.emit(Notice(f"{self._path.name} was not saved: the views changed meanwhile."))
+            self._not_saved("the views changed meanwhile.")
         elif self._steps:
             self._plates.append(self._steps.pop(0)())
-            self._show_progress(f"Drawing {self._path.name} …")
-            self._timer.start()
+            self._draw_next()
         else:
-            self._write(self.page(cut_alike(self._plates), self._choice), self._path)
+            self._write(self.page(cut_alike(self._plates), self._choice).save)
 
-    def _write(self, page: Page, path: Path) -> None:
-        self.bar.cancel.setEnabled(False)
-        self._show_progress(f"Writing {path.name} …")
-        self._run(
-            "export",
-            lambda: self._saving.write_whole(path, lambda temporary: page.save(temporary)),
-            done=lambda _answer: self._written(path),
-            failed=self._failed,
-            queue=True,
-        )
-
-    def _show_progress(self, words: str) -> None:
-        self.bar.show_progress(len(self._plates), len(self._views) + 1)
-        self.bar.text.setText(words)
-
-    def _written(self, path: Path) -> None:
-        self._rest()
-        self._saving.tell_saved(path)
-
-    def _failed(self, error: BaseException) -> None:
-        self._rest()
-        reason = self._saving.explain(error)
-        self._window.results.noticed.emit(Notice(f"{self._path.name} was not saved: {reason}"))
+    def _draw_next(self) -> None:
+        self.bar.show_progress(f"Drawing {self._path.name} …", len(self._plates), len(self._views) + 1)
+        self._timer.start()
 
     def _rest(self) -> None:
         self._steps, self._plates, self._views = [], [], []
-        self.bar.hide()
-        self._window.menus.actions["figure"].setEnabled(bool(self._window.session.state.shapes))
+        super()._rest()
 
     # -- the page -----------------------------------------------------------------------------------------------------
 
