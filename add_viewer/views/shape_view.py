@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from PySide6.QtCore import QPoint, QSize, Qt, Signal
+from PySide6.QtCore import QPoint, QRect, QSize, Qt, Signal
 from PySide6.QtGui import QImage, QPainter, QResizeEvent
 from PySide6.QtWidgets import QVBoxLayout, QWidget
 
@@ -231,10 +231,11 @@ class ShapeView(QWidget):
         small = width < _SMALL.width() or height < _SMALL.height()
         self.colour_bar.show_small(small, max(10 * GRID, width - 2 * gap))
         self.label.show_small(small)
-        self.canvas.leave_room(*((self.label.height(), self.colour_bar.height()) if small else (0, 0)))
         self.label.setFixedWidth(max(40, min(400, width - 2 * gap - self._room_right)))
         self.triad.setVisible(not small)
         self.label.move(gap, gap)
+        tools = QRect(width - gap - self._room_right, gap, self._room_right, 4 * GRID)
+        self.canvas.leave_room((self.label.geometry(), tools), self.colour_bar.height() if small else 0)
         self.triad.move(gap - 4, height - self.triad.height() - gap + 4)
         left = (width - self.colour_bar.width()) // 2 if small else width - self.colour_bar.width() - gap
         self.colour_bar.move(left, height - self.colour_bar.height() - (GRID // 2 if small else gap))

@@ -65,6 +65,12 @@ class OrbitCamera:
         self.distance = half / tan(radians(VIEW_ANGLE / 2)) + 0.5 * depth
         self.pan(0.0, 0.5 * (below - above))
 
+    def places(self, points: FloatArray, width: float, height: float) -> FloatArray:
+        """(n, 2): where points (n, 3) are in a picture of this size, right of and below its upper left corner."""
+        x, y, near = ((points - self.focal) @ self.axes.T).T
+        scale = height / self.picture_height * self.distance / np.maximum(self.distance - near, 1e-9)
+        return np.stack([0.5 * width + scale * x, 0.5 * height - scale * y], axis=1)
+
     def rotate(self, dx: float, dy: float) -> None:
         """Turn by degrees; the elevation stops short of the poles."""
         self.azimuth = (self.azimuth - dx + 180.0) % 360.0 - 180.0

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from PySide6.QtCore import QEvent, QPoint, QPointF, Qt, Signal
+from PySide6.QtCore import QEvent, QPoint, QPointF, QRect, Qt, Signal
 from PySide6.QtGui import QMouseEvent, QResizeEvent, QWheelEvent
 from PySide6.QtWidgets import QApplication
 
@@ -40,7 +40,8 @@ class OrbitView(View3D):
         self._last = QPointF()
         self._dragging = False
         self._fitted = True
-        self._room = (0, 0)
+        self._corners: tuple[QRect, ...] = ()
+        self._below = 0
         self._hovered = -1
 
     @property
@@ -61,19 +62,31 @@ class OrbitView(View3D):
 
     def fit(self) -> None:
         """Move so that the whole shape is in view, from the same side."""
-        if self.extent is not None:
-            height = max(self.height(), 1)
-            above, below = (min(pixels / height, 0.3) for pixels in self._room)
-            self.camera_model.fit(self.extent, max(self.width(), 1) / height, above, below)
+        points = self.extent
+        if points is not None:
+            width, height = max(self.width(), 1), max(self.height(), 1)
+            below = min(self._below / height, 0.3)
+            self.camera_model.fit(points, width / height, 0.0, below)
+            if self._reaches_corners(points):
+                above = max(corner.bottom() for corner in self._corners) / height
+                self.camera_model.fit(points, width / height, min(above, 0.3), below)
         self._fitted = True
         self._place_camera()
 
-    def leave_room(self, above: int, below: int) -> None:
-        """Keep so many pixels free above and below the shape, for labels, where the view is fitted to it."""
-        if (above, below) != self._room:
-            self._room = (above, below)
+    def leave_room(self, corners: tuple[QRect, ...], below: int) -> None:
+        """Where the view is fitted to the shape, keep so many pixels free below it, and stay under the labels at the
+        upper `corners` if it would reach them."""
+        if (corners, below) != (self._corners, self._below):
+            self._corners, self._below = corners, below
             if self._fitted:
                 self.fit()
+
+    def _reaches_corners(self, points: FloatArray) -> bool:
+        x, y = self.camera_model.places(points, self.width(), self.height()).T
+        return any(
+            bool(((x > room.left()) & (x < room.right()) & (y > room.top()) & (y < room.bottom())).any())
+            for room in self._corners
+        )
 
     def steer(self, move: str, arguments: tuple[float, ...]) -> None:
         """Move the camera by a method of `OrbitCamera`: "rotate", "pan" or "zoom"."""

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from PySide6.QtCore import QPoint, Qt
+from PySide6.QtCore import QPoint, QPointF, Qt
 
 from add_viewer.models.fields import FieldChoice
 
@@ -157,3 +157,23 @@ def test_the_discs_of_a_cloud_grow_with_the_picture(people, qtbot):
         return (alpha > 0).mean()
 
     assert covered(3) == pytest.approx(covered(1), rel=0.06)
+
+
+def test_raised_hands_stay_under_the_label_and_others_take_the_whole_height(person):
+    person.open("humans/0")
+    person.open("humans/2")
+
+    def under_label(each):
+        canvas, room = each.canvas, each.label.geometry()
+        places = canvas.camera_model.places(canvas.shown.vertices, canvas.width(), canvas.height())
+        assert (canvas.place_of(1234) - QPointF(*places[1234])).manhattanLength() < 1.5
+        return any(room.contains(QPoint(int(x), int(y))) for x, y in places)
+
+    for key, raised in (("humans/0", False), ("humans/2", True)):
+        each = view(person, key)
+        each.canvas.fit()
+        distance = each.canvas.camera_model.distance
+        assert not under_label(each)
+        each.canvas.leave_room((), 0)
+        assert under_label(each) == raised
+        assert (each.canvas.camera_model.distance < distance) == raised
