@@ -2,18 +2,22 @@
 
 from __future__ import annotations
 
+from math import ceil
+
 import numpy as np
 from numpy.typing import NDArray
 from PySide6.QtCore import QPointF, QRectF, QSize, Qt
-from PySide6.QtGui import QColor, QFont, QLinearGradient, QPainter, QPaintEvent, QPen
+from PySide6.QtGui import QColor, QFont, QFontMetrics, QLinearGradient, QPainter, QPaintEvent, QPen
 from PySide6.QtWidgets import QWidget
 
 from add_core.drawing.colour_maps import Tones, tone_map
 from add_core.drawing.colours import hex_colour
 
-from .theme import LIGHT, Theme, round_pen
+from .theme import GRID, LIGHT, Theme, round_pen
 
 FloatArray = NDArray[np.float64]
+_INDENT = 14
+"""Of the name of the source, for its dot."""
 
 
 class Overlay(QWidget):
@@ -68,8 +72,13 @@ class ColourBar(Overlay):
         wide = min(self.SMALL.width(), max(width, 0))
         self.setFixedSize(QSize(wide, self.SMALL.height()) if on else self.LARGE)
 
+    @property
+    def is_small(self) -> bool:
+        """Whether it lies below the shape."""
+        return self.height() == self.SMALL.height()
+
     def draw(self, painter: QPainter) -> None:
-        if self.height() == self.SMALL.height():
+        if self.is_small:
             self._draw_small(painter)
             return
         width = self.width()
@@ -138,9 +147,19 @@ class CornerLabel(Overlay):
         self._is_source = on
         self.update()
 
+    @property
+    def reach(self) -> int:
+        """How wide the text is, in steps that a change of a digit does not leave."""
+        bold = QFont(self.font())
+        bold.setBold(True)
+        parameters = self._parameters if self.height() > 40 else ""
+        plain = max(self.fontMetrics().horizontalAdvance(line) for line in (self._detail, parameters))
+        wide = max(plain, _INDENT + QFontMetrics(bold).horizontalAdvance(self._name))
+        return min(5 * GRID * ceil(wide / (5 * GRID)), self.width())
+
     def draw(self, painter: QPainter) -> None:
         self._pen(painter, "text", bold=True)
-        indent = 14 if self._is_source else 0
+        indent = _INDENT if self._is_source else 0
         self._line(painter, 0, self._name, indent)
         self._pen(painter, "muted", size=0.95)
         self._line(painter, 19, self._detail)

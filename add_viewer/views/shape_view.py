@@ -156,6 +156,7 @@ class ShapeView(QWidget):
         shows_bar = field is not None and field.values is not None and self._display["colour_bar"]
         self.colour_bar.setVisible(shows_bar)
         self.label.show_parameters("" if field is None else field.caption)
+        self._leave_room()
         if field is not None and field.values is not None:
             self.colour_bar.show_scale(field.title, field.notes, field.scale.ticks(), field.tones)
 
@@ -234,13 +235,19 @@ class ShapeView(QWidget):
         self.label.setFixedWidth(max(40, min(400, width - 2 * gap - self._room_right)))
         self.triad.setVisible(not small)
         self.label.move(gap, gap)
-        tools = QRect(width - gap - self._room_right, gap, self._room_right, 4 * GRID)
-        self.canvas.leave_room((self.label.geometry(), tools), self.colour_bar.height() if small else 0)
+        self._leave_room()
         self.triad.move(gap - 4, height - self.triad.height() - gap + 4)
         left = (width - self.colour_bar.width()) // 2 if small else width - self.colour_bar.width() - gap
         self.colour_bar.move(left, height - self.colour_bar.height() - (GRID // 2 if small else gap))
         self.hint.fit(width - 2 * gap)
         self.hint.move(width - self.hint.width() - gap, height - self.hint.height() - gap)
+
+    def _leave_room(self) -> None:
+        """Keep the fitted shape clear of name and buttons, and of the bar below it; of small views, all do alike."""
+        gap, small = 2 * GRID, self.colour_bar.is_small
+        name = QRect(self.label.pos(), QSize(self.width() if small else self.label.reach, self.label.height()))
+        tools = QRect(self.width() - gap - self._room_right, gap, self._room_right, 4 * GRID)
+        self.canvas.leave_room((name, tools), self.colour_bar.height() if small else 0)
 
     def picture(self, scale: float, *, transparent: bool = False, labels: bool = True) -> QImage:
         """What the view shows at `scale` times its size, without the hint."""

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from PySide6.QtCore import QPoint, QPointF, Qt
+from PySide6.QtCore import QPoint, QPointF, QRect, QSize, Qt
 
 from add_viewer.models.fields import FieldChoice
 
@@ -159,12 +159,14 @@ def test_the_discs_of_a_cloud_grow_with_the_picture(people, qtbot):
     assert covered(3) == pytest.approx(covered(1), rel=0.06)
 
 
-def test_raised_hands_stay_under_the_label_and_others_take_the_whole_height(person):
+def test_raised_hands_stay_under_the_label_and_others_take_the_whole_height(person, qtbot):
+    person.window.resize(1440, 900)
     person.open("humans/0")
     person.open("humans/2")
+    qtbot.waitUntil(lambda: min(view(person, key).width() for key in ("humans/0", "humans/2")) > 500)
 
     def under_label(each):
-        canvas, room = each.canvas, each.label.geometry()
+        canvas, room = each.canvas, QRect(each.label.pos(), QSize(each.label.reach, each.label.height()))
         places = canvas.camera_model.places(canvas.shown.vertices, canvas.width(), canvas.height())
         assert (canvas.place_of(1234) - QPointF(*places[1234])).manhattanLength() < 1.5
         return any(room.contains(QPoint(int(x), int(y))) for x, y in places)
