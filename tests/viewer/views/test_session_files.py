@@ -114,3 +114,14 @@ def test_after_a_kill_the_app_offers_to_go_on_and_has_everything(killed, person,
     assert person.session.state.diffusion.alpha == 7.5
     assert person.window.view.canvas.camera_model.azimuth == pytest.approx(-40.0)
     assert person.assembly.keeping.leftovers() == []
+
+
+def test_of_a_camera_that_shows_the_whole_shape_a_session_keeps_what_no_window_size_changes(person, qtbot):
+    person.open()
+    person.canvas.look("left")
+    kept, place = person.assembly.session_files.cameras(), person.canvas.camera_model.distance
+    person.window.resize(900, 500)
+    qtbot.waitUntil(lambda: person.canvas.camera_model.distance != place)
+    assert person.assembly.session_files.cameras() == kept
+    person.canvas.steer("zoom", (1.5, 0.0, 0.0))
+    assert person.assembly.session_files.cameras()[0].distance == person.canvas.camera_model.distance
