@@ -9,18 +9,22 @@ from functools import cache
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import NDArray
 
 from add_core.geometry import PointCloud, TriangleMesh, subsample
 from add_core.io import dogs, humans, poses
 from add_core.learning import TrainingShape
 from add_core.learning.augmentation import bend, remesh, roughen
 from add_core.learning.middles import Middles
+from add_core.learning.pose_transfer import between, deform, deformation
 from add_core.learning.variations import blend, vary
 
 UNCHANGED = 0.15
 """Share of the bodies that keep skin and meshing."""
 BEYOND = 1.4
 """How far blends go from the mean body, 1 being the people themselves."""
+REPOSED_FROM = 490
+"""Bodies from this number on have a pose that another body took, and often a way towards a second one."""
 VALIDATION = {
     "mesh": (61, 67, 72, 78),
     "remeshed": (64, 69, 70, 75),
@@ -45,8 +49,11 @@ def dog_middles() -> Middles:
 def person(number: int) -> TrainingShape:
     """A training body: one of the people, a blend of three in one pose, or person 1 in another pose; mostly varied.
 
-    Even numbers leave out persons 7 and 8, so that they alone give a set that the validation people are new to.
+    Even numbers leave out persons 7 and 8, so that they alone give a set that the validation people are new to. From
+    REPOSED_FROM on, blends of three of all people in any pose that one of them took, always varied.
     """
+    if number >= REPOSED_FROM:
+        return _reposed(number)
     subjects = range(6) if number % 2 == 0 else range(8)
     draw = np.random.default_rng([1, number])
     pose, kind = int(draw.integers(10)), draw.random()
@@ -55,10 +62,31 @@ def person(number: int) -> TrainingShape:
     elif kind < 0.5:
         mesh = _first_person_in(int(draw.choice(poses().split("train"))))
     else:
-        chosen, weights = draw.choice(subjects, 3, replace=False), draw.dirichlet([0.6] * 3)
-        bodies = [humans()[10 * int(subject) + pose] for subject in chosen]
-        mesh = blend(bodies, 1 / 3 + BEYOND * (weights - 1 / 3))
+        mesh = _blend_in(pose, draw, subjects)
     return _perhaps_varied(mesh, draw, people_middles())
+
+
+def _reposed(number: int) -> TrainingShape:
+    draw = np.random.default_rng([1, number])
+    body = _blend_in(0, draw, range(8))
+    first, second = _pose(draw), _pose(draw)
+    mesh = deform(body, between(first, second, draw.uniform(0.0, 0.5)))
+    item = TrainingShape(mesh, np.arange(mesh.vertex_count))
+    return vary(item, seed=int(draw.integers(2**31)), middles=people_middles().places)
+
+
+def _pose(draw: np.random.Generator) -> NDArray[np.float64]:
+    """What the triangles of one of the training people go through from standing to one of their poses."""
+    if draw.random() < 0.5:
+        return deformation(humans()[0], _first_person_in(int(draw.choice(poses().split("train")))))
+    standing = 10 * int(draw.integers(8))
+    return deformation(humans()[standing], humans()[standing + int(draw.integers(1, 10))])
+
+
+def _blend_in(pose: int, draw: np.random.Generator, subjects: range) -> TriangleMesh:
+    chosen, weights = draw.choice(subjects, 3, replace=False), draw.dirichlet([0.6] * 3)
+    bodies = [humans()[10 * int(subject) + pose] for subject in chosen]
+    return blend(bodies, 1 / 3 + BEYOND * (weights - 1 / 3))
 
 
 def dog(number: int) -> TrainingShape:
