@@ -91,13 +91,36 @@ class Soaker:
             self.wait(self._random.choice((0.0, 0.01, 0.03, 0.15)))
 
     def use_every_view(self) -> None:
-        """Have as many views as ever: they are kept, and each has a graphics context of its own."""
-        for reference in self._references[:4]:
+        """Have as many views as ever, each drawn in every way and at full size.
+
+        Views are kept, each with a graphics context of its own, which keeps a program for every way of drawing.
+        """
+        for reference in self._references:
             self.window.open_requested.emit(reference)
         self.settle()
-        self.session.arrange(layout="grid")
         self.session.choose_comparison(self.session.state.field)
-        self.wait(0.5)
+        for shape in self.session.state.shapes:
+            self.session.show_shape(shape.key)
+            self.session.pick(0)
+        for theme in ("light", "dark"):
+            self.window.display.set("theme", theme)
+            for wireframe in (True, False):
+                for shape in self.session.state.shapes:
+                    self.session.set_look(shape.key, wireframe=wireframe)
+                self._draw_every_field()
+        self.session.arrange(layout="single")
+        for comparison in (self.session.state.field, None):
+            self.session.choose_comparison(comparison)
+            for shape in self.session.state.shapes:
+                self.session.show_shape(shape.key)
+                self.wait(0.5)
+
+    def _draw_every_field(self) -> None:
+        for entry in catalogue(self.session.state, ()):
+            if entry.choice.kind in QUICK_KINDS:
+                self.session.choose_field(kind=entry.choice.kind, name=entry.choice.name, index=entry.choice.index)
+                self.session.choose_comparison(entry.choice)
+                self.wait(0.3)
 
     def wait(self, seconds: float) -> None:
         """Let the window work."""

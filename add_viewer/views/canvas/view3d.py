@@ -10,7 +10,7 @@ from typing import Any
 os.environ.setdefault("QT_API", "pyside6")
 
 from PySide6.QtCore import QEvent, QTimer
-from PySide6.QtGui import QDragEnterEvent, QDropEvent, QEnterEvent, QKeyEvent, QResizeEvent
+from PySide6.QtGui import QDragEnterEvent, QDropEvent, QEnterEvent, QHideEvent, QKeyEvent, QResizeEvent
 from pyvistaqt import QtInteractor
 
 SAMPLES = 4
@@ -21,6 +21,9 @@ SOON = 80
 
 STILL = 200
 """Milliseconds without a change after which a picture is at rest."""
+
+_COLOURS_AND_DEPTH = 0x4000 | 0x100
+"""GL_COLOR_BUFFER_BIT and GL_DEPTH_BUFFER_BIT."""
 
 
 class View3D(QtInteractor):  # type: ignore[misc]
@@ -70,9 +73,25 @@ class View3D(QtInteractor):  # type: ignore[misc]
         if not getattr(self, "_closed", False):  # its graphics context is gone by then
             super().resizeEvent(event)
 
+    def hideEvent(self, event: QHideEvent) -> None:
+        """Give the pictures back that are drawn into, tens of megabytes at full size; the next paint makes new ones."""
+        super().hideEvent(event)
+        if not getattr(self, "_closed", False) and self.isValid():
+            self.makeCurrent()
+            state = self.render_window.GetState()
+            for pictures in (self.render_window.GetRenderFramebuffer(), self.render_window.GetDisplayFramebuffer()):
+                pictures.Resize(1, 1)
+                state.PushFramebufferBindings()
+                pictures.Bind()
+                state.vtkglClear(_COLOURS_AND_DEPTH)  # until something is drawn, the driver keeps what was there
+                state.PopFramebufferBindings()
+            self.doneCurrent()
+
     def paintGL(self) -> None:
         iren: Any = self.__dict__.get("_Iren")
         if getattr(self, "_closed", False) or not hasattr(iren, "EnableRenderOn"):
+            return
+        if not self.isVisible():  # Qt paints when it resizes what is hidden, and before it shows it
             return
         self._waiting.stop()
         with self.rendering_at_once():

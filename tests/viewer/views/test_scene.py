@@ -123,6 +123,30 @@ def test_the_source_alone_can_be_shown(people):
     assert len(people.window.scene.views) == 2
 
 
+def test_a_hidden_view_holds_no_pictures_and_shows_the_same_again(people, qtbot):
+    other = view(people, "humans/0").canvas
+
+    def size_drawn_into():
+        pictures = other.render_window.GetRenderFramebuffer().GetColorAttachmentAsTextureObject(0)
+        return pictures.GetWidth(), pictures.GetHeight()
+
+    ratio = other.devicePixelRatioF()
+    full = round(ratio * other.width()), round(ratio * other.height())
+    qtbot.waitUntil(lambda: size_drawn_into() == full)
+    before = _pixels(view(people, "humans/0"))
+    people.session.arrange(layout="single")
+    qtbot.waitUntil(lambda: not other.isVisible())
+    assert size_drawn_into() == (1, 1)
+    people.session.arrange(layout="grid")
+    qtbot.waitUntil(lambda: size_drawn_into() == full)
+    qtbot.waitUntil(lambda: np.abs(_pixels(view(people, "humans/0")) - before).max() < 24)
+    for key in ("humans/0", "humans/1"):
+        people.session.close_shape(key)
+    other.makeCurrent()
+    other.paintGL()  # as Qt does when it resizes what it is about to show
+    assert size_drawn_into() == (1, 1)
+
+
 def test_a_view_without_room_keeps_its_camera_a_number(people):
     canvas = view(people, "humans/0").canvas
     canvas.setFixedWidth(0)
