@@ -42,7 +42,7 @@ from .models.training import TrainingRequest
 from .tasks.delay import Delay
 from .tasks.disposal import dispose
 from .tasks.identity import ProcessIdentity
-from .tasks.memory import give_back
+from .tasks.memory import give_back, spare_what_is_here
 from .tasks.processes import ProcessRunner
 from .tasks.worker import Worker
 from .views.animation import Recorder
@@ -59,6 +59,9 @@ from .views.start_page import Gallery
 
 KEEPING_PAUSE = 700
 """Milliseconds after a change until the session is kept: a drag writes its file once or twice, not for every step."""
+
+LIBRARIES_PAUSE = 10000
+"""Milliseconds after which the libraries of a first picture and its curves have been loaded."""
 
 RESTING_PAUSE = 3000
 """Milliseconds after shapes came or went until the memory that they left is given back."""
@@ -228,10 +231,16 @@ class Assembly:
 
     # -- running ------------------------------------------------------------------------------------------------------
 
+    def show(self) -> None:
+        """Show the window. What libraries made by then, or soon after for its first pictures, is never searched."""
+        self.window.show()
+        spare_what_is_here()
+        QTimer.singleShot(LIBRARIES_PAUSE, spare_what_is_here)
+
     def run(self) -> int:
         """Show the window until it is closed, or save a picture of it and end."""
         logging.basicConfig(level=logging.WARNING, format="%(name)s: %(message)s")
-        self.window.show()
+        self.show()
         if self._session_path is not None:
             self.keeping.open(self._session_path)
         for reference in self._files:

@@ -118,10 +118,12 @@ def _splines(family: SpectralFamily) -> FloatArray:
 
 
 def _standardised(values: FloatArray, family: SpectralFamily) -> FloatArray:
-    flat = values.reshape(len(values), -1)
-    used = family.mass > 0
-    spread = flat[used].std(axis=0)
-    return np.asarray((flat - flat[used].mean(axis=0)) / np.where(spread > 1e-9, spread, 1.0))
+    """By mean and deviation over the surface, so that dense sampling of hands and faces counts no more."""
+    flat, weights = values.reshape(len(values), -1), family.mass / family.mass.sum()
+    used = weights > 0
+    mean = weights[used] @ flat[used]
+    spread = np.sqrt(weights[used] @ (flat[used] - mean) ** 2)
+    return np.asarray((flat - mean) / np.where(spread > 1e-9, spread, 1.0))
 
 
 BASELINES: dict[str, Callable[[SpectralFamily], FloatArray]] = {

@@ -51,6 +51,7 @@ STAGES = {
     "humans-2": Stage(132, replace(LATER, steps=12000, learning_rate=7e-4, validate_every=500)),
     "humans-3": Stage(376, replace(LATER, steps=14000, learning_rate=7e-4)),
     "humans-4": Stage(490, replace(LATER, steps=9000, learning_rate=6e-4, seed=2)),
+    "humans-5": Stage(980, replace(LATER, steps=15000, learning_rate=7e-4, seed=3)),
     "correspondence": Stage(376, replace(COMMON, steps=4000, loss="multinomial")),
     "dogs": Stage(36, replace(COMMON, steps=3000, validate_every=250)),
 }

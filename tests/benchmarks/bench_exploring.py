@@ -33,7 +33,7 @@ class Bench:
     def __init__(self) -> None:
         store = QSettings(str(Path(tempfile.mkdtemp()) / "settings.ini"), QSettings.Format.IniFormat)
         self.assembly = Assembly([], store=store, size=(1440, 900))
-        self.assembly.window.show()
+        self.assembly.show()
         for key in PEOPLE:
             self.assembly.opening.open(key)
             self.wait(lambda key=key: self.assembly.session.state.active_key == key)

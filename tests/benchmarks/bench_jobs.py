@@ -31,7 +31,7 @@ class Bench:
     def __init__(self) -> None:
         store = QSettings(str(Path(os.environ["ADD_DATA_DIR"]) / "settings.ini"), QSettings.Format.IniFormat)
         self.assembly = Assembly([], store=store, size=(1440, 900))
-        self.assembly.window.show()
+        self.assembly.show()
         self.assembly.opening.open("humans/0")
         self.wait(lambda: self.assembly.results.weyl_eigenvalue is not None)
         self.assembly.session.pick(6868)

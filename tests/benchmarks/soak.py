@@ -38,7 +38,7 @@ def main() -> int:
     def started() -> Assembly:
         store = QSettings(str(folder / "settings.ini"), QSettings.Format.IniFormat)
         assembly = Assembly([], store=store, size=(1440, 900), theme="light")
-        assembly.window.show()
+        assembly.show()
         assembly.window.activateWindow()
         return assembly
 
