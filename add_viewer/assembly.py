@@ -275,6 +275,8 @@ class Assembly:
     def _settled(self) -> bool:
         if self.results.busy or len(self.session.state.shapes) < len(set(self._files)):
             return False
+        if any(view.canvas.is_moving for view in self.window.scene.views):
+            return False
         picks = self.session.state.active_picks
         if not picks:
             return True

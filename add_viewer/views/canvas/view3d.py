@@ -34,6 +34,7 @@ class View3D(QtInteractor):  # type: ignore[misc]
     """
 
     def __init__(self, parent: Any = None) -> None:
+        self._resizing = False
         super().__init__(parent, auto_update=False, multi_samples=SAMPLES, lighting="none")
         self.samples = SAMPLES
         self._stillness = QTimer(self, singleShot=True, interval=STILL)
@@ -45,10 +46,17 @@ class View3D(QtInteractor):  # type: ignore[misc]
 
     def draw_moving(self) -> None:
         """Paint soon, with one sample a pixel: while things move, speed counts; edges are smoothed once they rest."""
+        if self.render_window is None:  # closed
+            return
         self.render_window.SetMultiSamples(0)
         self.show_moving(True)
         self._stillness.start()
         self.update()
+
+    @property
+    def is_moving(self) -> bool:
+        """Whether a picture of smoother edges is about to follow."""
+        return bool(self._stillness.isActive())
 
     def draw_soon(self) -> None:
         """Paint within a moment, and only once if what is shown changes meanwhile."""
@@ -70,8 +78,12 @@ class View3D(QtInteractor):  # type: ignore[misc]
             self.update()
 
     def resizeEvent(self, event: QResizeEvent) -> None:
-        if not getattr(self, "_closed", False):  # its graphics context is gone by then
-            super().resizeEvent(event)
+        if getattr(self, "_closed", False):  # its graphics context is gone by then
+            return
+        self._resizing = True
+        super().resizeEvent(event)
+        self._resizing = False
+        self.draw_moving()
 
     def hideEvent(self, event: QHideEvent) -> None:
         """Give the pictures back that are drawn into, tens of megabytes at full size; the next paint makes new ones."""
@@ -91,7 +103,7 @@ class View3D(QtInteractor):  # type: ignore[misc]
         iren: Any = self.__dict__.get("_Iren")
         if getattr(self, "_closed", False) or not hasattr(iren, "EnableRenderOn"):
             return
-        if not self.isVisible():  # Qt paints when it resizes what is hidden, and before it shows it
+        if self._resizing or not self.isVisible():  # Qt paints then too, and once more when all have their places
             return
         self._waiting.stop()
         with self.rendering_at_once():
