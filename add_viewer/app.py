@@ -50,7 +50,7 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("--size", metavar="WxH", type=_size, help="size of the window, e.g. 1440x900")
     parser.add_argument("--theme", choices=("system", "light", "dark"), help="colours of the window, for this time")
     parser.add_argument(
-        "--pick", metavar="VERTEX", type=int, action="append", default=[], help="pick a vertex of the shape"
+        "--pick", metavar="VERTEX", type=int, action="append", default=[], help="pick a vertex of the first shape"
     )
     parser.add_argument("--version", action="version", version=f"%(prog)s {__version__}")
     return parser

@@ -222,9 +222,11 @@ class Assembly:
 
     def _opened(self, shape: OpenShape) -> None:
         self.window.remember(shape.reference)
-        for vertex in self._picks:
-            self.session.pick(vertex, add=True)
-        self._picks = []
+        if self._picks and len(self.session.state.shapes) >= len(set(self._files)):
+            self.session.show_shape(self.session.state.shapes[0].key)  # picks are meant on the first
+            for vertex in self._picks:
+                self.session.pick(vertex, add=True)
+            self._picks = []
 
     def _failed(self, reference: str, reason: str) -> None:
         self._failures.append(f"{reference}: {reason}" if reference not in reason else reason)

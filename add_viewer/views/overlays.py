@@ -223,7 +223,7 @@ class Hint(Overlay):
 
     def fit(self, width: int) -> None:
         """Take up at most `width`."""
-        self.setFixedSize(max(80, min(400, width)), 96)
+        self.setFixedSize(max(140, min(400, width)), 128)
 
     def draw(self, painter: QPainter) -> None:
         self._pen(painter, "text")

@@ -239,7 +239,7 @@ class ShapeView(QWidget):
         self.triad.move(gap - 4, height - self.triad.height() - gap + 4)
         left = (width - self.colour_bar.width()) // 2 if small else width - self.colour_bar.width() - gap
         self.colour_bar.move(left, height - self.colour_bar.height() - (GRID // 2 if small else gap))
-        self.hint.fit(width - 2 * gap)
+        self.hint.fit(width - 2 * gap if small else int(0.3 * width))  # beside what stands in the middle
         self.hint.move(width - self.hint.width() - gap, height - self.hint.height() - gap)
 
     def _leave_room(self) -> None:

@@ -6,12 +6,15 @@ import os
 import shutil
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 import pytest
+from PySide6.QtCore import QSettings
 
 from add_viewer import preflight
 from add_viewer.app import main
+from add_viewer.assembly import Assembly
 
 
 def viewer(*arguments: str, environment: dict[str, str] | None = None) -> subprocess.CompletedProcess[str]:
@@ -135,3 +138,18 @@ def test_a_bad_session_is_one_line_and_status_two(screen, tmp_path: Path):
     assert done.returncode == 2
     assert len(done.stderr.strip().splitlines()) == 1
     assert "version 99" in done.stderr
+
+
+def test_a_picture_of_two_shapes_picks_on_the_first(screen, tmp_path: Path):
+    store = QSettings(str(tmp_path / "settings.ini"), QSettings.Format.IniFormat)
+    assembly = Assembly(["humans/0", "humans/12"], store=store, pick=[6868])
+    try:
+        for reference in ("humans/0", "humans/12"):
+            assembly.opening.open(reference)
+        end = time.monotonic() + 30
+        while not assembly.session.state.picks and time.monotonic() < end:
+            assembly.app.processEvents()
+        assert assembly.session.state.active_key == "humans/0"
+        assert [(pick.shape, pick.vertex) for pick in assembly.session.state.picks] == [("humans/0", 6868)]
+    finally:
+        assembly.stop()
