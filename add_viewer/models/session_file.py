@@ -13,6 +13,7 @@ from typing import Any
 from .arrangement import Arrangement, ShapeLook
 from .diffusion import Diffusion
 from .fields import FieldChoice
+from .kept_mirror import unpacked
 from .matching import Matching
 from .picks import PICK_LIMIT, Pick
 from .plain import PlainDataError, from_plain, to_plain
@@ -20,7 +21,7 @@ from .session import SessionState
 from .shapes import OpenShape
 
 FORMAT, VERSION, ENDING = "add-viewer session", 1, ".addsession"
-LARGEST = 4_000_000
+LARGEST = 40_000_000
 """Bytes; more is no session."""
 _EMPTY = SessionState()
 _RANGED = ("diffusion", "field", "compare", "arrangement", "matching")
@@ -48,7 +49,10 @@ class CameraPlace:
 
 @dataclass(frozen=True)
 class KeptShape:
-    """A shape of the session. reference : a shipped name, or a path; in the file relative, beginning with a dot."""
+    """A shape of the session. reference : a shipped name, or a path; in the file relative, beginning with a dot.
+
+    mirror : the mirror map that was found for it, see `kept_mirror`, "" if none was. confidence : in that map, 0 to 1.
+    """
 
     reference: str
     name: str = ""
@@ -56,6 +60,17 @@ class KeptShape:
     visible: bool = True
     wireframe: bool = False
     point_size: float = 1.0
+    mirror: str = ""
+    confidence: float | None = None
+
+    def with_mirror(self, shape: OpenShape) -> OpenShape:
+        """The shape as it was opened, with the mirror map that had been found for it, if that still fits."""
+        if shape.symmetry is not None or not self.mirror:
+            return shape
+        symmetry = unpacked(self.mirror, shape.vertex_count)
+        if symmetry is None:
+            return shape
+        return replace(shape, symmetry=symmetry, symmetry_confidence=self.confidence)
 
 
 @dataclass(frozen=True)
@@ -108,7 +123,8 @@ class KeptSession:
 
         Picks beyond a shape's last vertex are left out too: its file has changed.
         """
-        shapes = tuple(dict.fromkeys(shape for shape in opened if shape is not None))
+        opened = [shape and kept.with_mirror(shape) for kept, shape in zip(self.shapes, opened, strict=True)]
+        shapes = tuple({shape.key: shape for shape in opened if shape is not None}.values())
         active = opened[self.active] if self.active is not None and self.active < len(opened) else None
         return SessionState(
             shapes=shapes,
@@ -187,7 +203,8 @@ def _in_range(value: Any) -> Any:
 
 def _kept_shape(shape: OpenShape, look: ShapeLook) -> KeptShape:
     drawn = (look.visible, look.wireframe, look.point_size)
-    return KeptShape(shape.reference, shape.name, shape.vertex_count, *drawn)
+    found = (shape.found_mirror, shape.symmetry_confidence)
+    return KeptShape(shape.reference, shape.name, shape.vertex_count, *drawn, *found)
 
 
 def _with_paths(kept: KeptSession, change: Any) -> KeptSession:

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from add_core.geometry import PointCloud, TriangleMesh
 
 from .coarse import Coarse, coarse_of
+from .kept_mirror import packed
 
 Shape = TriangleMesh | PointCloud
 FloatArray = NDArray[np.float64]
@@ -52,6 +53,11 @@ class OpenShape:
     @property
     def vertex_count(self) -> int:
         return self.shape.vertex_count
+
+    @cached_property
+    def found_mirror(self) -> str:
+        """The mirror map that was found for this shape, as `kept_mirror` packs it; "" if none was."""
+        return "" if self.symmetry is None or self.symmetry_confidence is None else packed(self.symmetry)
 
     @cached_property
     def coarse(self) -> Coarse | None:

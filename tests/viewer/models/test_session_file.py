@@ -4,10 +4,19 @@ import json
 from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pytest
 
+from add_viewer.models.kept_mirror import packed
 from add_viewer.models.session import Session
-from add_viewer.models.session_file import CameraPlace, KeptSession, SessionFileError, read_session, session_text
+from add_viewer.models.session_file import (
+    CameraPlace,
+    KeptSession,
+    KeptShape,
+    SessionFileError,
+    read_session,
+    session_text,
+)
 
 
 @pytest.fixture
@@ -36,6 +45,37 @@ def test_everything_comes_back(session, tmp_path):
     kept = read_session(path)
     assert kept.state(session.state.shapes) == session.state
     assert (kept.cameras, kept.layout) == (cameras, "bGF5b3V0")
+
+
+def test_a_mirror_map_that_was_found_comes_back(session, tmp_path):
+    shape = session.state.shapes[0]
+    symmetry = np.random.default_rng(0).permutation(shape.vertex_count)
+    bare = [replace(each, symmetry=None, symmetry_confidence=None) for each in session.state.shapes]
+    session.restore(replace(session.state, shapes=tuple(bare)))
+    session.learn_symmetry(shape.key, symmetry, 0.75)
+    path = tmp_path / "talk.addsession"
+    path.write_text(session_text(KeptSession.of(session.state), tmp_path), encoding="utf-8")
+    found, other = read_session(path).state(bare).shapes
+    assert np.array_equal(found.symmetry, symmetry)
+    assert found.symmetry_confidence == 0.75
+    assert other is bare[1]
+
+
+def test_a_mirror_map_that_does_not_fit_is_left_out(make_torus):
+    shape = replace(make_torus("ring"), symmetry=None, symmetry_confidence=None)
+    count = shape.vertex_count
+    wrong = [np.arange(count - 1), np.arange(count + 1), np.full(count, count), np.full(count, -1)]
+    for mirror in ("", "!", "AAAA", *map(packed, wrong)):
+        assert KeptShape("ring", mirror=mirror, confidence=0.5).with_mirror(shape) is shape
+    fits = KeptShape("ring", mirror=packed(np.arange(count)), confidence=0.5).with_mirror(shape)
+    assert fits.symmetry is not None
+
+
+def test_a_mirror_map_that_came_with_the_shape_is_not_kept(session):
+    known = replace(
+        session.state.shapes[0], symmetry=np.arange(session.state.shapes[0].vertex_count), symmetry_confidence=None
+    )
+    assert known.found_mirror == ""
 
 
 def test_a_folder_moves_as_a_whole(session, tmp_path):
