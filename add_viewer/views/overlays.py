@@ -6,7 +6,7 @@ from math import ceil
 
 import numpy as np
 from numpy.typing import NDArray
-from PySide6.QtCore import QPointF, QRectF, QSize, Qt
+from PySide6.QtCore import QPointF, QRectF, QSize, QSizeF, Qt
 from PySide6.QtGui import QColor, QFont, QFontMetrics, QLinearGradient, QPainter, QPaintEvent, QPen
 from PySide6.QtWidgets import QWidget
 
@@ -228,9 +228,8 @@ class Hint(Overlay):
     def draw(self, painter: QPainter) -> None:
         self._pen(painter, "text")
         across, down = self._PADDING.width(), self._PADDING.height()
-        room = QRectF(0, 0, self.width() - 2 * across - 2, self.height())
         flags = Qt.AlignmentFlag.AlignCenter | Qt.TextFlag.TextWordWrap
-        words = painter.boundingRect(room, flags, self._text).size()
+        words = self._words(painter, flags, self.width() - 2 * across - 2)
         width, height = words.width() + 2 * across, words.height() + 2 * down
         box = QRectF(self.width() - width - 1, self.height() - height - 1, width, height)
         painter.setBrush(self.theme.colour("panel"))
@@ -238,3 +237,16 @@ class Hint(Overlay):
         painter.drawRoundedRect(box, 16, 16)
         painter.setPen(self.theme.colour("text"))
         painter.drawText(box.adjusted(across - 1, 0, 1 - across, 0), flags, self._text)
+
+    def _words(self, painter: QPainter, flags: int, width: float) -> QSizeF:
+        """Size of the words in as few lines as this width needs, each about as long as the others."""
+
+        def wrapped(width: float) -> QSizeF:
+            return painter.boundingRect(QRectF(0, 0, width, self.height()), flags, self._text).size()
+
+        usual = wrapped(width)
+        for share in (0.5, 0.6, 0.7, 0.8, 0.9):
+            narrower = wrapped(share * width)
+            if narrower.height() <= usual.height() and narrower.width() <= share * width:
+                return narrower
+        return usual
