@@ -83,13 +83,15 @@ def test_a_size_that_is_none_is_explained(text, capsys):
 
 
 PICK_TWICE_AS_FINE = """
+import gc
 import sys
 from PySide6.QtCore import QPoint, QSettings, Qt
 from PySide6.QtTest import QTest
 from add_viewer.assembly import Assembly
 
 assembly = Assembly([], store=QSettings(sys.argv[1], QSettings.Format.IniFormat), size=(700, 440), theme="light")
-assembly.window.show()
+assembly.show()
+assert gc.get_freeze_count() > 100_000, "the collector searches what libraries made"
 assembly.opening.open("humans/0")
 while assembly.session.state.active is None:
     assembly.app.processEvents()
