@@ -4,11 +4,12 @@
     python train_models.py humans-2 -o RUN2 --inputs INPUTS --start RUN1
     python train_models.py humans-3 -o RUN3 --inputs INPUTS --start RUN2
     python train_models.py humans-4 -o RUN4 --inputs INPUTS --start RUN3
-    python train_models.py correspondence -o RUN --inputs INPUTS --start RUN4
+    python train_models.py humans-5 -o RUN5 --inputs INPUTS --start RUN4
+    python train_models.py correspondence -o RUN --inputs INPUTS --start RUN5
     python train_models.py dogs -o RUN
     python train_models.py osd -o RUN --inputs INPUTS
 
-humans-madd3 learns in four stages, each from more bodies than the last. About half of the time goes into spectra: 17
+humans-madd3 learns in five stages, each from more bodies than the last. About half of the time goes into spectra: 17
 operators for each body, 7 to 15 seconds on a core, and 20 MB of disk each in INPUTS. Each may be stopped and started
 again; RUN/model.safetensors is the best so far.
 """
@@ -52,7 +53,7 @@ STAGES = {
     "humans-3": Stage(376, replace(LATER, steps=14000, learning_rate=7e-4)),
     "humans-4": Stage(490, replace(LATER, steps=9000, learning_rate=6e-4, seed=2)),
     "humans-5": Stage(980, replace(LATER, steps=15000, learning_rate=7e-4, seed=3)),
-    "correspondence": Stage(376, replace(COMMON, steps=4000, loss="multinomial")),
+    "correspondence": Stage(980, replace(COMMON, steps=4000, loss="multinomial")),
     "dogs": Stage(36, replace(COMMON, steps=3000, validate_every=250)),
 }
 
