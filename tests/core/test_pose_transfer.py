@@ -1,3 +1,5 @@
+"""Poses carried from body to body: exact where truth is known, refused where none is."""
+
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
