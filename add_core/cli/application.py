@@ -13,6 +13,7 @@ import click
 
 from .. import __version__
 from ..errors import AddError, Cancelled
+from .stopping import ending_in_order
 
 COMMANDS = ("info", "kernel", "spectra", "describe", "match", "symmetry", "evaluate", "train", "figures", "cache")
 """Each is a module of this package with a click command named `command`."""
@@ -69,7 +70,8 @@ def complain(message: object) -> None:
 
 def _run(arguments: list[str] | None) -> int:
     try:
-        status = application.main(arguments, prog_name="add-core", standalone_mode=False)
+        with ending_in_order():
+            status = application.main(arguments, prog_name="add-core", standalone_mode=False)
         return status if isinstance(status, int) else SUCCESS
     except click.exceptions.NoArgsIsHelpError as request:
         click.echo(request.ctx.get_help() if request.ctx else "", err=True)

@@ -1,4 +1,4 @@
-"""Ending a training from outside without losing a step."""
+"""Ending a command from outside: in order, and a training without losing a step."""
 
 from __future__ import annotations
 
@@ -9,6 +9,23 @@ from contextlib import contextmanager
 from typing import Any
 
 Report = Callable[[dict[str, Any]], object]
+
+
+@contextmanager
+def ending_in_order() -> Iterator[None]:
+    """Within, SIGTERM ends a command as Ctrl+C does: what it keeps on disk while it works goes with it."""
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+
+    def interrupt(_number: int, _frame: object) -> None:
+        raise KeyboardInterrupt
+
+    before = signal.signal(signal.SIGTERM, interrupt)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGTERM, before)
 
 
 @contextmanager

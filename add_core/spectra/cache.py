@@ -34,7 +34,8 @@ FORMAT = 1
 
 _MANIFEST = "entry.json"
 _SCRATCH = ".writing-"
-_STALE = 24 * 3600.0
+STALE = 24 * 3600.0
+"""Seconds after which what is still being written has been given up."""
 _BLOCK = 1 << 22
 
 Arrays = dict[str, np.ndarray[Any, Any]]
@@ -83,7 +84,7 @@ class SpectraCache:
         freed = sum(entry.size for entry in self.entries())
         for path in self._paths():
             self._drop(path)
-        self._sweep(0.0)
+        remove_abandoned(self.folder, _SCRATCH, 0.0)
         return freed
 
     def load(self, key: str) -> Arrays | None:
@@ -123,7 +124,7 @@ class SpectraCache:
         if size > self.limit:
             raise OSError(f"{size / 1e9:.3g} GB exceed the limit of {self.limit / 1e9:.3g} GB (set ADD_CACHE_GB)")
         self.folder.mkdir(parents=True, exist_ok=True)
-        self._sweep(_STALE)
+        remove_abandoned(self.folder, _SCRATCH)
         self._make_room(size)
         folder = Path(tempfile.mkdtemp(prefix=_SCRATCH, dir=self.folder))
         try:
@@ -185,13 +186,14 @@ class SpectraCache:
             if used + size > self.limit:
                 self._drop(self.folder / entry.key)
 
-    def _sweep(self, age: float) -> None:
-        """Remove what processes that died left behind."""
-        with suppress(OSError):
-            for path in self.folder.glob(f"{_SCRATCH}*"):
-                with suppress(OSError):
-                    if time.time() - path.stat().st_mtime >= age:
-                        shutil.rmtree(path, ignore_errors=True)
+
+def remove_abandoned(folder: Path, prefix: str, age: float = STALE) -> None:
+    """Remove folders that processes which died left behind, those that nothing was written to for `age` seconds."""
+    with suppress(OSError):
+        for path in folder.glob(f"{prefix}*"):
+            with suppress(OSError):
+                if time.time() - path.stat().st_mtime >= age:
+                    shutil.rmtree(path, ignore_errors=True)
 
 
 def _digest(path: Path) -> str:

@@ -15,7 +15,7 @@ import numpy as np
 
 from .._check import FloatArray
 from ..errors import Cancelled
-from .cache import Arrays, SpectraCache
+from .cache import Arrays, SpectraCache, remove_abandoned
 from .job import EIGENFUNCTIONS, SpectralJob
 from .processes import Solved, WorkerPool, WorkersUnavailable, solve_here
 from .solver import PencilSolver
@@ -23,6 +23,8 @@ from .solver import PencilSolver
 _log = logging.getLogger(__name__)
 
 Progress = Callable[[int, int], object]
+
+_SCRATCH = "add-core-spectra-"
 
 SMALL = 1e9
 """Below this much work, counted as C·n·K², a job is done before worker processes have started."""
@@ -119,7 +121,8 @@ def _scratch(job: SpectralJob, store: SpectraCache | None, *, needed: bool, stac
             _log.warning("Spectra cannot be cached: %s.", error)
     if not needed:
         return None
-    return Path(stack.enter_context(tempfile.TemporaryDirectory(prefix="spectra-", ignore_cleanup_errors=True)))
+    remove_abandoned(Path(tempfile.gettempdir()), _SCRATCH)
+    return Path(stack.enter_context(tempfile.TemporaryDirectory(prefix=_SCRATCH, ignore_cleanup_errors=True)))
 
 
 def _solved(job: SpectralJob, pool: WorkerPool | None, folder: Path | None, progress: Progress | None) -> Arrays:

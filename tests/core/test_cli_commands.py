@@ -1,6 +1,10 @@
 """The commands kernel, spectra, describe and cache, as a person types them."""
 
 import json
+import os
+import signal
+import subprocess
+import sys
 
 import numpy as np
 import pytest
@@ -11,6 +15,7 @@ from add_core.geometry.shapes import ellipsoid
 from add_core.io import load_fields, load_shape, save_shape
 from add_core.operators import AnisotropicLaplacian
 from add_core.spectra import HeatFlow, compute_spectrum
+from add_core.spectra.cache import remove_abandoned
 
 
 @pytest.fixture
@@ -145,3 +150,31 @@ def test_spectra_of_one_angle(egg, tmp_path, capsys):
         assert found["eigenfunctions"].shape == (1, 162, 8)
     run("spectra", egg, "--theta", 30, status=2)
     assert "--alphas names 3" in capsys.readouterr().err
+
+
+def test_a_command_that_is_told_to_end_leaves_nothing_behind(tmp_path):
+    """SIGTERM is how a window cancels a job."""
+    command = ["spectra", "humans:0", "--no-cache", "--json", "--workers", "2"]
+    with subprocess.Popen(
+        [sys.executable, "-m", "add_core.cli", *command],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        env={**os.environ, "TMPDIR": str(tmp_path)},
+    ) as process:
+        line = process.stderr.readline()
+        assert list(tmp_path.iterdir()), line
+        process.send_signal(signal.SIGTERM)
+        process.communicate(timeout=60)
+    assert process.returncode == 130
+    assert not list(tmp_path.iterdir())
+
+
+def test_what_killed_commands_left_goes_after_a_day(tmp_path):
+    old, new, other = (tmp_path / name for name in ("mine-1", "mine-2", "other"))
+    for folder in (old, new, other):
+        folder.mkdir()
+    for folder in (old, other):
+        os.utime(folder, (0, 0))
+    remove_abandoned(tmp_path, "mine-")
+    assert sorted(tmp_path.iterdir()) == [new, other]
