@@ -172,11 +172,11 @@ def symmetry(camera: Photographer) -> None:
 
 
 def transfer(camera: Photographer) -> None:
-    """Colours of one person on two others, by matched descriptors refined by ZoomOut."""
+    """Colours of one person on two others, by the learned descriptor refined by ZoomOut."""
     camera.open("humans/83", "humans/94", "clouds/12")
     camera.session.pick(SHOULDER)
     camera.window.menus.actions["transfer"].trigger()
-    camera.session.match(method="zoomout", descriptor="geometry-vectors", refined=True)
+    camera.session.match(method="zoomout", descriptor="humans-madd3", refined=True)
     camera.save("transfer")
 
 
