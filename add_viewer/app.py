@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import gc
 import sys
 from pathlib import Path
 
@@ -27,6 +28,7 @@ def main(arguments: list[str] | None = None) -> int:
         problem = f"The folder of {options.screenshot} does not exist. Create it first."
     if problem is not None:
         return _fail(problem)
+    gc.disable()  # libraries make no garbage as they load; the window lets it be collected
     from .controllers.opening import read_shape
     from .tasks.ahead import Ahead
 

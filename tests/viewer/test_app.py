@@ -90,7 +90,9 @@ from PySide6.QtTest import QTest
 from add_viewer.assembly import Assembly
 
 assembly = Assembly([], store=QSettings(sys.argv[1], QSettings.Format.IniFormat), size=(700, 440), theme="light")
+gc.disable()
 assembly.show()
+assert gc.isenabled(), "nothing is ever collected"
 assert gc.get_freeze_count() > 100_000, "the collector searches what libraries made"
 assembly.opening.open("humans/0")
 while assembly.session.state.active is None:
