@@ -2,8 +2,9 @@
 
     python assets/scripts/measure_symmetry.py -o assets/reports/symmetry.csv
 
-Twenty of the hundred people, twelve of the 71 poses and twelve of the forty dogs, drawn by seed 0; a line is written
-after each. error: mean geodesic distance from a vertex's image to its true mirror image ÷ geodesic diameter.
+Twenty of the hundred people, twelve of the 71 poses and twelve of the forty dogs, drawn by seed 0, and the twenty
+people kept for tests, of another meshing and as clouds. A line is written after each. error: mean geodesic distance
+from a vertex's image to its true mirror image ÷ geodesic diameter.
 """
 
 import argparse
@@ -14,27 +15,39 @@ from pathlib import Path
 import numpy as np
 
 from add_core.correspondence import intrinsic_symmetry
+from add_core.evaluation.samples import sample
 from add_core.geometry import geodesic_diameter, normalize
 from add_core.geometry.pair_distances import PairDistances
 from add_core.io import dogs, humans, poses
 from add_core.spectra import compute_spectra
 
 DRAWN = ((humans, 20), (poses, 12), (dogs, 12))
-NUMBERS = ("error", "confidence", "distortion", "worst", "preserved", "unmoved", "unlike")
+NUMBERS = ("error", "confidence", "distortion", "worst", "preserved", "unmoved", "alike")
 COLUMNS = ("collection", "shape", "found", *NUMBERS, "seconds")
 
 
-def measured(collection, index):
+def drawn(random):
+    """Title, name, shape and true symmetry of all that is measured."""
+    for collection, count in ((make(), count) for make, count in DRAWN):
+        for index in np.sort(random.choice(len(collection), count, replace=False)):
+            yield collection.title, collection.names[index], collection[index], collection.symmetry
+    for variant in ("remeshed", "cloud"):
+        for index in humans().split("test"):
+            part = sample(humans(), int(index), variant)
+            yield f"{humans().title}, {variant}", part.name, part.shape, part.symmetry
+
+
+def measured(title, name, given, symmetry):
     """One line of the table."""
     started = time.process_time()
-    shape = normalize(collection[index])
+    shape = normalize(given)
     family = compute_spectra(shape, alphas=(0.0, 50.0), angles=16, count=150, workers=1, cache=False)
     found = intrinsic_symmetry(shape, family=family)
-    error = PairDistances(shape)(found.candidate, collection.symmetry).mean() / geodesic_diameter(shape)
+    error = PairDistances(shape)(found.candidate, symmetry).mean() / geodesic_diameter(shape)
     facts = [round(float(x), 4) for x in (error, found.confidence, found.distortion, found.worst)]
-    facts += [round(float(x), 3) for x in (found.preserved, found.unmoved, found.unlike)]
+    facts += [round(float(x), 3) for x in (found.preserved, found.unmoved, found.alike)]
     seconds = round(time.process_time() - started, 1)
-    return [collection.title, collection.names[index], found.found, *facts, seconds]
+    return [title, name, found.found, *facts, seconds]
 
 
 def main():
@@ -43,9 +56,9 @@ def main():
     parser.add_argument("--seed", type=int, default=0)
     options = parser.parse_args()
     random, lines = np.random.default_rng(options.seed), []
-    drawn = [(c(), i) for c, count in DRAWN for i in np.sort(random.choice(len(c()), count, replace=False))]
-    for done, place in enumerate(random.permutation(len(drawn)), start=1):
-        lines.append(measured(drawn[place][0], int(drawn[place][1])))
+    shapes = list(drawn(random))
+    for done, place in enumerate(random.permutation(len(shapes)), start=1):
+        lines.append(measured(*shapes[place]))
         with options.output.open("w", newline="", encoding="utf-8") as file:
             csv.writer(file).writerows([COLUMNS, *sorted(lines, key=str)])
         good = sum(line[2] and line[3] <= 0.03 for line in lines)

@@ -8,6 +8,7 @@ from scipy.spatial.distance import cdist
 from add_core.correspondence import intrinsic_symmetry, mirror_symmetry, preserved_orientation
 from add_core.correspondence.involution import nearest_involution
 from add_core.errors import ParameterError
+from add_core.evaluation.samples import sample
 from add_core.geometry import PointCloud, TriangleMesh, geodesic_diameter, normalize
 from add_core.geometry.pair_distances import PairDistances
 from add_core.geometry.shapes import sphere
@@ -44,8 +45,8 @@ def test_the_mirror_image_of_every_point_is_found():
     assert preserved_orientation(shape, shape, found.eta) < 0.1
     assert 0 < found.confidence <= 1
     assert found.field.mean() > 0.9
-    assert found.unmoved < 0.3
-    assert found.unlike < 0.1
+    assert found.unmoved < 0.2
+    assert found.alike > 0.95
 
 
 def test_the_mirror_image_of_a_person_in_a_pose_is_found():
@@ -55,6 +56,16 @@ def test_the_mirror_image_of_a_person_in_a_pose_is_found():
     found = intrinsic_symmetry(person, family=spectra_of(person, 80))
     assert found.found, found.reason
     error = PairDistances(person)(found.eta, collection.symmetry) / geodesic_diameter(person)
+    assert error.mean() < 0.03
+
+
+@pytest.mark.parametrize("variant", ["remeshed", "cloud"])
+def test_the_mirror_image_of_a_person_is_found_on_other_meshings(variant):
+    """Here the map sends a fingertip astray, and looks less like a mirror than on the mesh that people come in."""
+    walking = sample(humans(), 83, variant)
+    found = intrinsic_symmetry(walking.shape, family=spectra_of(walking.shape, 150))
+    assert found.found, found.reason
+    error = PairDistances(walking.shape)(found.eta, walking.symmetry) / geodesic_diameter(walking.shape)
     assert error.mean() < 0.03
 
 
@@ -77,6 +88,18 @@ def blob(seed):
     return TriangleMesh(BALL.vertices * growth[:, None] * [0.8, 1.0, 1.3], BALL.faces)
 
 
+def smooth(seed):
+    """A ball with a few wide bumps, whose two sides differ little in distances and much in what lies where."""
+    random = np.random.default_rng(seed)
+    count = int(random.integers(4, 9))
+    places = random.standard_normal((count, 3))
+    places /= np.linalg.norm(places, axis=1, keepdims=True)
+    sizes, widths = random.uniform(-0.4, 1.0, count), random.uniform(2, 12, count)
+    fine = sphere(4)
+    growth = 1 + (sizes * np.exp(widths * (fine.vertices @ places.T - 1))).sum(axis=1)
+    return TriangleMesh(fine.vertices * growth[:, None] * random.uniform(0.6, 1.6, 3), fine.faces)
+
+
 def star(lengths):
     """Limbs of these lengths around a body that is round above and flat below."""
     angles = 2 * np.pi * np.arange(len(lengths)) / len(lengths)
@@ -88,8 +111,16 @@ def star(lengths):
 
 @pytest.mark.parametrize(
     "shape",
-    [creature(arms=(0.9, 0.0)), creature(arms=(0.9, 0.3), bend=0.6), blob(1), blob(2), star([1.6, 0.9, 0.4])],
-    ids=["an arm is missing", "a bent body has a stump", "a blob", "another blob", "three unequal limbs"],
+    [
+        creature(arms=(0.9, 0.0)),
+        creature(arms=(0.9, 0.3), bend=0.6),
+        blob(1),
+        blob(2),
+        blob(5),
+        smooth(8),
+        star([1.6, 0.9, 0.4]),
+    ],
+    ids=["arm missing", "bent, with a stump", "blob", "second blob", "third blob", "smooth", "three unequal limbs"],
 )
 def test_shapes_without_a_symmetry_are_told_so(shape):
     found = intrinsic_symmetry(shape, family=spectra_of(shape))
