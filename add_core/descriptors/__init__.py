@@ -8,6 +8,7 @@ from .heat import (
     scale_invariant_heat_kernel_signature,
     scaled_heat_kernel_signature,
 )
+from .smoothing import smoothed
 from .splines import geometry_vectors, spline_reach
 from .wave import WaveEnergies, wave_kernel_energies, wave_kernel_signature
 from .windowed_fourier import heat_window, windowed_fourier_descriptor, windowed_fourier_transform
@@ -23,6 +24,7 @@ __all__ = [
     "heat_window",
     "scale_invariant_heat_kernel_signature",
     "scaled_heat_kernel_signature",
+    "smoothed",
     "spectral_kernel",
     "spectral_signature",
     "spline_reach",

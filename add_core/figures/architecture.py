@@ -94,7 +94,7 @@ def _trained(mesh: TriangleMesh, name: str, vertex: int) -> _Network:
         family.thetas[list(channels)],
         family,
         channels,
-        model.describe_inputs(inputs, family.mass)[vertex],
+        model.describe_inputs(inputs, family.mass, mesh)[vertex],
         len(family),
     )
 

@@ -72,6 +72,20 @@ class Network(nn.Module):  # type: ignore[misc]
         """(B, C, M) -> (B, Q), before the Softmax if there is one: what a stable loss (22) starts from."""
         return (self.layers[:-1] if self.is_classifier else self.layers)(self._checked(x))
 
+    def features(self, x: Tensor) -> Tensor:
+        """(B, C, M) -> (B, D): the descriptors, or what enters a classifier's last FC layer."""
+        return self.layers[: self._features_end](self._checked(x))
+
+    def concluded(self, features: Tensor) -> Tensor:
+        """(B, D) -> (B, Q): what `forward` makes of `features`, which may have been averaged over points between."""
+        return self.layers[self._features_end :](features)
+
+    @property
+    def _features_end(self) -> int:
+        """How many layers `features` go through."""
+        count = len(self.layers)
+        return max(n for n in range(count) if isinstance(self.layers[n], FC)) if self.is_classifier else count
+
     def _checked(self, x: Tensor) -> Tensor:
         instance_of("inputs", x, Tensor)
         weights = next(self.parameters()).dtype

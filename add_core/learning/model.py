@@ -14,7 +14,8 @@ from safetensors import SafetensorError, safe_open
 from safetensors.torch import save as serialise
 
 from .._assets import asset
-from .._check import FloatArray, IntArray, one_of, read_only
+from .._check import FloatArray, IntArray, at_least_zero, one_of, read_only
+from ..descriptors import smoothed
 from ..errors import AddError, ParameterError, ShapeFileError
 from ..geometry import PointCloud, TriangleMesh
 from ..io import shipped_models
@@ -48,7 +49,8 @@ class Model:
     recipe : how inputs come from a shape. standardisation : "shape" brings every shape's inputs to mean 0 and
         deviation 1 by themselves, "set" by the moments of the training set. card : facts about the training, for
         people to read. reference : the shape whose vertices a correspondence network names (its Softmax has one output
-        for each), None if it is not known.
+        for each), None if it is not known. smoothing : strength with which `smoothed` takes the noise of the
+        meshing from descriptors, and from what enters the last FC layer of a correspondence network; 0 leaves it.
     """
 
     network: Network
@@ -57,9 +59,11 @@ class Model:
     standardisation: Standardisation = "shape"
     card: Mapping[str, Any] = field(default_factory=dict)
     reference: TriangleMesh | None = None
+    smoothing: float = 0.0
 
     def __post_init__(self) -> None:
         one_of("standardisation", self.standardisation, ("shape", "set"))
+        at_least_zero("smoothing", self.smoothing)
         wanted, given = self.network.architecture, self.recipe
         if (wanted.channels, wanted.splines) != (given.channels, given.splines):
             raise ParameterError(
@@ -81,11 +85,16 @@ class Model:
         cache : as for `compute_spectra`, which takes nearly all of the time.
         """
         family = self.recipe.spectra(shape, progress=progress, workers=workers, cache=cache)
-        return self.describe_inputs(self.recipe.inputs(family), family.mass)
+        return self.describe_inputs(self.recipe.inputs(family), family.mass, shape)
 
-    def describe_inputs(self, values: Inputs, mass: FloatArray) -> FloatArray:
-        """Descriptors, shape (n, Q), from unstandardised inputs (n, C, M) of points of area `mass` (n,)."""
-        return np.concatenate([part.numpy().astype(np.float64) for part in self._outputs(values, mass)])
+    def describe_inputs(
+        self, values: Inputs, mass: FloatArray, shape: TriangleMesh | PointCloud | None = None
+    ) -> FloatArray:
+        """Descriptors, shape (n, Q), from unstandardised inputs (n, C, M) of points of area `mass` (n,).
+
+        shape : to smooth over; None leaves what the network says of each point by itself.
+        """
+        return np.concatenate([part.numpy().astype(np.float64) for part in self._outputs(values, mass, shape)])
 
     def match(
         self,
@@ -101,28 +110,31 @@ class Model:
         """
         self._check_classifier()
         family = self.recipe.spectra(shape, progress=progress, workers=workers, cache=cache)
-        return self.match_inputs(self.recipe.inputs(family), family.mass)
+        return self.match_inputs(self.recipe.inputs(family), family.mass, shape)
 
-    def match_inputs(self, values: Inputs, mass: FloatArray) -> Matches:
-        """As `match`, from unstandardised inputs (n, C, M) of points of area `mass` (n,)."""
+    def match_inputs(self, values: Inputs, mass: FloatArray, shape: TriangleMesh | PointCloud | None = None) -> Matches:
+        """As `match`; arguments as of `describe_inputs`."""
         self._check_classifier()
-        best = [part.max(dim=1) for part in self._outputs(values, mass)]
+        best = [part.max(dim=1) for part in self._outputs(values, mass, shape)]
         return Matches(
             read_only(np.concatenate([part.indices.numpy() for part in best])),
             read_only(np.concatenate([part.values.numpy().astype(np.float64) for part in best])),
         )
 
-    def embed_inputs(self, values: Inputs, mass: FloatArray) -> FloatArray:
+    def embed_inputs(
+        self, values: Inputs, mass: FloatArray, shape: TriangleMesh | PointCloud | None = None
+    ) -> FloatArray:
         """Numbers (n, D) in which corresponding points of two shapes are near each other, from inputs (n, C, M).
 
-        The descriptors, or the places on the reference that a correspondence network finds: D = 3.
+        The descriptors, or the places on the reference that a correspondence network finds: D = 3. Arguments as of
+        `describe_inputs`.
         Raises ParameterError for a correspondence network without a reference.
         """
         if not self.network.is_classifier:
-            return self.describe_inputs(values, mass)
+            return self.describe_inputs(values, mass, shape)
         if self.reference is None:
             raise ParameterError("the model must know its reference shape to place points on it, but it has none.")
-        return np.asarray(self.reference.vertices[self.match_inputs(values, mass).vertices])
+        return np.asarray(self.reference.vertices[self.match_inputs(values, mass, shape).vertices])
 
     def embed(
         self,
@@ -134,7 +146,7 @@ class Model:
     ) -> FloatArray:
         """As `embed_inputs`, from the shape; arguments as of `describe`."""
         family = self.recipe.spectra(shape, progress=progress, workers=workers, cache=cache)
-        return self.embed_inputs(self.recipe.inputs(family), family.mass)
+        return self.embed_inputs(self.recipe.inputs(family), family.mass, shape)
 
     def _check_classifier(self) -> None:
         if not self.network.is_classifier:
@@ -144,12 +156,22 @@ class Model:
                 "Describe two shapes and compare: add-core match."
             )
 
-    def _outputs(self, values: Inputs, mass: FloatArray) -> Iterator[torch.Tensor]:
+    def _outputs(
+        self, values: Inputs, mass: FloatArray, shape: TriangleMesh | PointCloud | None
+    ) -> Iterator[torch.Tensor]:
         moments = Moments.of(values, mass) if self.standardisation == "shape" else self.moments
         self.network.eval()
-        for low in range(0, len(values), POINTS_AT_ONCE):
+        blocks = [slice(low, low + POINTS_AT_ONCE) for low in range(0, len(values), POINTS_AT_ONCE)]
+        with torch.inference_mode():
+            features = torch.cat(
+                [self.network.features(torch.from_numpy(moments.standardise(values[block]))) for block in blocks]
+            )
+            if shape is not None and self.smoothing > 0:
+                even = smoothed(shape, features.numpy(), strength=self.smoothing)
+                features = torch.from_numpy(even.astype(np.float32))
+        for block in blocks:
             with torch.inference_mode():
-                yield self.network(torch.from_numpy(moments.standardise(values[low : low + POINTS_AT_ONCE])))
+                yield self.network.concluded(features[block])
 
     def save(self, path: str | Path, *, precision: Precision = "float32") -> None:
         """Write the model as safetensors, replacing what is there only once everything is written.
@@ -162,6 +184,7 @@ class Model:
             "architecture": asdict(self.network.architecture),
             "recipe": asdict(self.recipe),
             "standardisation": self.standardisation,
+            "smoothing": self.smoothing,
             "card": dict(self.card),
         }
         tensors = {f"network.{name}": value.to(kept).contiguous() for name, value in self.network.state_dict().items()}
@@ -221,4 +244,5 @@ def _assembled(about: dict[str, Any], tensors: dict[str, torch.Tensor]) -> Model
     reference = None
     if "reference.vertices" in tensors:
         reference = TriangleMesh(tensors["reference.vertices"].numpy(), tensors["reference.faces"].numpy(), "reference")
-    return Model(network, InputRecipe(**recipe), moments, about["standardisation"], about["card"], reference)
+    smoothing = float(about.get("smoothing", 0.0))
+    return Model(network, InputRecipe(**recipe), moments, about["standardisation"], about["card"], reference, smoothing)

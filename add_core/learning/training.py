@@ -30,6 +30,8 @@ from .validation import Validator
 Report = Callable[[dict[str, Any]], object]
 
 CHECKPOINT, MODEL = "checkpoint.pt", RUN_MODEL
+SMOOTHING = 4.0
+"""Of descriptors: the best on the validation people. A correspondence network, which names vertices, has none."""
 
 
 def fit(
@@ -66,6 +68,7 @@ def fit(
     _check_classes(network, chosen, shapes)
     pooled = Moments.pooled([shape.moments for shape in shapes])
     moments = pooled if chosen.standardisation == "set" else None
+    smoothing = 0.0 if network.is_classifier else SMOOTHING
     about = [asdict(architecture), asdict(recipe), asdict(chosen)]
     about.append({"data": _fingerprint([*shapes, *validation], symmetry, network)})
     run = _Run(
@@ -75,7 +78,7 @@ def fit(
         sampler=_sampler(shapes, recipe, chosen, symmetry, moments),
         validator=Validator(validation, symmetry=symmetry, moments=moments) if validation else None,
         model=lambda trained, facts: Model(
-            trained, recipe, pooled, chosen.standardisation, facts | (card or {}), reference
+            trained, recipe, pooled, chosen.standardisation, facts | (card or {}), reference, smoothing
         ),
         about=json.dumps(about),
         folder=Path(folder),

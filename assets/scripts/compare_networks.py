@@ -82,10 +82,10 @@ def network(name: str, shapes: list[PreparedShape], folder: Path, *, isotropic: 
         built.architecture, view.recipe, [view(s) for s in shapes], folder, settings=SETTINGS, symmetry=symmetry
     )
 
-    def describe(shape: PreparedShape, _: Sample) -> np.ndarray:
+    def describe(shape: PreparedShape, part: Sample) -> np.ndarray:
         seen = view(shape)
         values = seen.values if seen.channels is None else np.repeat(seen.values, len(seen.channels), axis=1)
-        return model.describe_inputs(values, shape.mass)
+        return model.describe_inputs(values, shape.mass, part.shape)
 
     return describe
 
@@ -143,7 +143,7 @@ def evaluate(
 def shipped(name: str) -> Describe:
     """A model of assets/models, or in the folder of a training."""
     model: Model = load_model(name)
-    return lambda shape, _: model.embed_inputs(shape.values, shape.mass)
+    return lambda shape, part: model.embed_inputs(shape.values, shape.mass, part.shape)
 
 
 def prepared_sample(part: Sample, folder: Path) -> PreparedShape:

@@ -24,12 +24,16 @@ def main() -> None:
     parser.add_argument("name")
     parser.add_argument("--fact", action="append", default=[], metavar="NAME=TEXT")
     parser.add_argument("--scores", type=Path)
+    parser.add_argument("--smoothing", type=float, help="In place of the model's own.")
     given = parser.parse_args()
     model = load_model(given.run)
     facts = dict(fact.split("=", 1) for fact in given.fact)
     if given.scores is not None:
         facts["scores"] = json.loads(given.scores.read_text(encoding="utf-8"))
-    replace(model, card=dict(model.card) | facts).save(MODELS / f"{given.name}.safetensors", precision="float16")
+    smoothing = model.smoothing if given.smoothing is None else given.smoothing
+    replace(model, card=dict(model.card) | facts, smoothing=smoothing).save(
+        MODELS / f"{given.name}.safetensors", precision="float16"
+    )
 
 
 if __name__ == "__main__":

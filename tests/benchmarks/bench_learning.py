@@ -58,7 +58,7 @@ def from_nothing() -> tuple[float, float]:
     start = time.perf_counter()
     family = model.recipe.spectra(person, cache=False)
     middle = time.perf_counter()
-    model.describe_inputs(model.recipe.inputs(family), family.mass)
+    model.describe_inputs(model.recipe.inputs(family), family.mass, person)
     end = time.perf_counter()
     return end - start, end - middle
 

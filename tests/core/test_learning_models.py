@@ -1,11 +1,14 @@
 """Models: inputs that forget what they should, descriptors of any shape, and files that hold no surprise."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 import torch
 from numpy.testing import assert_allclose, assert_array_equal
 from safetensors.torch import save_file
 
+from add_core.descriptors import smoothed
 from add_core.errors import ParameterError, ShapeFileError
 from add_core.geometry import PointCloud, TriangleMesh, subsample
 from add_core.geometry.shapes import ellipsoid
@@ -127,6 +130,23 @@ def test_standardising_by_the_set_uses_its_moments(model, mesh):
     values = RECIPE.inputs(RECIPE.spectra(mesh, workers=1, cache=False))
     expected = model.network(torch.from_numpy(values)).detach().numpy()
     assert_allclose(other.describe_inputs(values, np.ones(len(values))), expected, rtol=1e-5)
+
+
+def test_descriptors_are_smoothed_and_what_enters_the_last_layer_of_a_classifier(model, mesh, tmp_path):
+    smooth = replace(model, smoothing=4.0)
+    assert_allclose(describe(smooth, mesh), smoothed(mesh, describe(model, mesh)), atol=1e-5)
+    smooth.save(tmp_path / "smooth")
+    assert load_model(tmp_path / "smooth").smoothing == 4.0
+    layers = "ASF8 ReLU SC FC9 ReLU FCreference Softmax"
+    network = build_network("mADD4", alphas=RECIPE.alphas, angles=2, splines=12, layers=layers, reference_size=50)
+    classifier = Model(network, RECIPE, model.moments, smoothing=2.0)
+    family = RECIPE.spectra(mesh, workers=1, cache=False)
+    inputs = RECIPE.inputs(family)
+    with torch.inference_mode():
+        features = network.layers[:-2](torch.from_numpy(Moments.of(inputs, family.mass).standardise(inputs)))
+        even = torch.from_numpy(smoothed(mesh, features.numpy(), strength=2.0).astype(np.float32))
+        expected = network.layers[-2:](even).numpy()
+    assert_allclose(describe(classifier, mesh), expected, atol=1e-5)
 
 
 def test_files_that_hold_no_model_are_explained(tmp_path):
