@@ -13,6 +13,7 @@ from add_core.geometry import PointCloud, TriangleMesh
 
 from .coarse import Coarse, coarse_of
 from .kept_mirror import packed
+from .outline import outline_of
 
 Shape = TriangleMesh | PointCloud
 FloatArray = NDArray[np.float64]
@@ -64,11 +65,17 @@ class OpenShape:
         """What is drawn in its place while the camera moves; None if it is small."""
         return coarse_of(self.shape)
 
+    @cached_property
+    def outline(self) -> FloatArray:
+        """(m, 3) by which cameras are placed."""
+        return outline_of(self.shape.vertices)
+
     def make_ready(self) -> OpenShape:
         """Find what drawing needs, before the window's thread asks for it; returns itself."""
         for mesh in (self.shape, None if self.coarse is None else self.coarse.shape):
             if isinstance(mesh, TriangleMesh):
                 mesh.vertex_normals  # noqa: B018 - found once, kept there
+        self.outline  # noqa: B018
         return self
 
     def travel_light(self) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+import numpy as np
 from PySide6.QtCore import QPoint, QRect, QSize, Qt, Signal
 from PySide6.QtGui import QImage, QPainter, QResizeEvent
 from PySide6.QtWidgets import QVBoxLayout, QWidget
@@ -124,7 +125,7 @@ class ShapeView(QWidget):
         if chosen == "auto" and shape.up and shape.front:
             return shape.up, shape.front
         if chosen == "auto":  # most things in files stand along y, unless they are clearly taller along z
-            _, deep, tall = shape.shape.vertices.max(axis=0) - shape.shape.vertices.min(axis=0)
+            _, deep, tall = np.ptp(shape.outline, axis=0)
             chosen = "+z" if tall > 1.2 * deep else "+y"
         return chosen, _FRONTS[chosen[-1]]
 

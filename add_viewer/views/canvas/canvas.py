@@ -30,6 +30,7 @@ class Canvas(OrbitView):
     def __init__(self, parent: object = None) -> None:
         super().__init__(parent)
         self._body: Surface | None = None
+        self._outline: FloatArray = np.zeros((0, 3))
         self._needles: Needles | None = None
         self._marks, self._best = Marks(self.renderer), Marks(self.renderer)
         self._point_size = 1.0
@@ -50,9 +51,10 @@ class Canvas(OrbitView):
         if opened is not None and self._body is not None:
             for actor in self._body.actors:
                 self.renderer.AddActor(actor)
+            self._outline = opened.outline
             self.camera_model.orient(up, front)
             self.look("front")
-            self._step_aside(opened.shape)
+            self._step_aside()
         self.update()
 
     def show_field(self, field: ShapeField | None) -> None:
@@ -116,9 +118,9 @@ class Canvas(OrbitView):
         self.set_background(theme.canvas_bottom, top=theme.canvas_top)
         self.update()
 
-    def _step_aside(self, shape: Shape) -> None:
+    def _step_aside(self) -> None:
         """A shape much deeper than wide shows little of itself from the front: look at it from three quarters."""
-        width, _, depth = np.ptp(shape.vertices @ self.camera_model.axes.T, axis=0)
+        width, _, depth = np.ptp(self._outline @ self.camera_model.axes.T, axis=0)
         if depth > 1.5 * width:
             self.camera_model.azimuth = 55.0
             self.fit()
@@ -129,7 +131,7 @@ class Canvas(OrbitView):
 
     @property
     def extent(self) -> FloatArray | None:
-        return None if self._body is None else self._body.shape.vertices
+        return None if self._body is None else self._outline
 
     # -- picking ------------------------------------------------------------------------------------------------------
 

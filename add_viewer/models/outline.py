@@ -1,0 +1,41 @@
+"""The few points of a large shape by which cameras are placed."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+FloatArray = NDArray[np.float64]
+
+DIRECTIONS = 200
+"""In which the farthest points are kept; between two of them a shape hardly reaches farther."""
+EVENLY = 4000
+"""Points kept besides, to know where in a picture the shape is."""
+_FEW = 20_000
+
+
+def outline_of(vertices: FloatArray) -> FloatArray:
+    """(m, 3), some of the vertices (n, 3): those that reach farthest, and a few thousand in between; all if few."""
+    if len(vertices) <= _FEW:
+        return vertices
+    directions = _on_a_sphere(DIRECTIONS)
+    farthest = np.zeros(DIRECTIONS, dtype=np.int64)
+    reach = np.full(DIRECTIONS, -np.inf)
+    for low in range(0, len(vertices), _FEW):
+        along = vertices[low : low + _FEW] @ directions.T
+        best = along.argmax(axis=0)
+        value = along[best, np.arange(DIRECTIONS)]
+        farthest = np.where(value > reach, best + low, farthest)
+        reach = np.maximum(value, reach)
+    evenly = np.arange(0, len(vertices), -(-len(vertices) // EVENLY))
+    return vertices[np.union1d(farthest, evenly)]
+
+
+def _on_a_sphere(count: int) -> FloatArray:
+    """(count, 3) unit vectors along a spiral, evenly far from one another, the axes among them."""
+    z = 1.0 - (2.0 * np.arange(count) + 1.0) / count
+    around = np.pi * (3.0 - np.sqrt(5.0)) * np.arange(count)
+    flat = np.sqrt(1.0 - z**2)
+    found = np.stack([flat * np.cos(around), flat * np.sin(around), z], axis=1)
+    found[:6] = np.vstack([np.eye(3), -np.eye(3)])
+    return found
