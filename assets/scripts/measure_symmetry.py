@@ -22,7 +22,7 @@ from add_core.io import dogs, humans, poses
 from add_core.spectra import compute_spectra
 
 DRAWN = ((humans, 20), (poses, 12), (dogs, 12))
-NUMBERS = ("error", "confidence", "distortion", "worst", "preserved", "unmoved", "alike")
+NUMBERS = ("error", "confidence", "distortion", "worst", "preserved", "unmoved", "unlike", "alike")
 COLUMNS = ("collection", "shape", "found", *NUMBERS, "seconds")
 
 
@@ -45,7 +45,7 @@ def measured(title, name, given, symmetry):
     found = intrinsic_symmetry(shape, family=family)
     error = PairDistances(shape)(found.candidate, symmetry).mean() / geodesic_diameter(shape)
     facts = [round(float(x), 4) for x in (error, found.confidence, found.distortion, found.worst)]
-    facts += [round(float(x), 3) for x in (found.preserved, found.unmoved, found.alike)]
+    facts += [round(float(x), 3) for x in (found.preserved, found.unmoved, found.unlike, found.alike)]
     seconds = round(time.process_time() - started, 1)
     return [title, name, found.found, *facts, seconds]
 
