@@ -61,7 +61,7 @@ REFINEMENTS = ("none", "fm", "icp", "zoomout", "zoomout-plain")
     type=click.Path(path_type=Path, dir_okay=False),
     required=True,
     help="Text file: a vertex number of FIRST for each vertex of SECOND, a line each. Ending in .npz: an archive of "
-    "matches, matches before refinement and, with --truth, their errors and curves.",
+    "matches, matches before refinement and, with --truth, their errors.",
 )
 @click.option(
     "--truth",

@@ -12,6 +12,8 @@ from ..geometry import PointCloud, TriangleMesh
 from ..geometry.mirror import mirror_map
 
 ROUNDS = 20
+SAME_PLANE = 5.0
+"""Tolerances by which an exact map of the triangles may miss the plane's, on average, to be of the same symmetry."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -62,7 +64,7 @@ def mirror_symmetry(shape: TriangleMesh | PointCloud, *, tolerance: float = 0.03
     residual /= extent
     found = bool(residual <= tolerance)
     exact = mirror_map(shape) if found and isinstance(shape, TriangleMesh) else None
-    if exact is not None and _places_agree(points, exact, normal, offset, tolerance * extent):
+    if exact is not None and _places_agree(points, exact, normal, offset, SAME_PLANE * tolerance * extent):
         images = exact
     return MirrorSymmetry(found, read_only(images), read_only(normal), offset, residual)
 

@@ -121,8 +121,7 @@ def intrinsic_symmetry(
     spectrum = family[int(isotropic[0])]
     distances = PairDistances(unit)
     allowed = int(unit.is_referenced.sum()) if isinstance(unit, TriangleMesh) else unit.vertex_count
-    start = int(np.argmax(unit.is_referenced)) if isinstance(unit, TriangleMesh) else 0
-    rows = farthest_points(unit, min(SAMPLES, allowed), start)
+    rows = farthest_points(unit, min(SAMPLES, allowed))
     search = _Search(spectrum, distances, rows)
     ahead, back = mirrored_descriptors(family)
     best = min(search.candidates(ahead, back), key=search.badness)

@@ -175,6 +175,8 @@ def _measure(
         table = numbers("distances", distances)
         if table.shape != (count, count):
             raise ParameterError(f"distances must have shape ({count}, {count}), but it has {table.shape}.")
+        if not (table >= 0).all():
+            raise ParameterError("distances must be lengths, inf between components, but some are negative or NaN.")
         return _Table(table), root
     if shape is None:
         raise ParameterError("distances must be given, or the target as shape: matches are judged along the surface.")

@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike
 
 from .._check import FloatArray, read_only
 from ..correspondence.nearest import without_unit
+from ..errors import ParameterError
 from .blocks import checked_descriptors
 from .truth import SurfacePoints, Truth
 
@@ -43,6 +44,8 @@ def right_side(
     queries (q, d), targets (n, d), truth (q,), symmetry (n,) : as for `cmc`.
     Raises ParameterError if arrays do not fit together or a descriptor is not finite.
     """
+    if symmetry is None:
+        raise ParameterError("symmetry must be the (n,) mirror image of each target point, but it is None.")
     one, two = without_unit(*checked_descriptors(queries, targets))
     known = Truth.of(truth, symmetry, queries=len(one), targets=len(two))
     point, true, mirror = one[known.rows], two[known.vertex], two[known.mirror]

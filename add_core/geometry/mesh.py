@@ -14,7 +14,8 @@ from .._check import BoolArray, FloatArray, IntArray, faces_array, positions_arr
 from .distinct import sorted_distinct
 
 FLAT_FACE = 1e-14
-"""A face whose area is below this share of its longest edge squared has no usable normal: rounding made it."""
+"""A face whose area is below this share of its longest edge squared has no usable normal: rounding made it. So it has
+where its height is below the rounding of the coordinates."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -80,7 +81,8 @@ class TriangleMesh:
     def has_area(self) -> BoolArray:
         """(m,): False for faces so thin that their normal is rounding noise."""
         longest = (self.opposite_edges**2).sum(axis=2).max(axis=1)
-        return read_only(self.face_areas > FLAT_FACE * longest)
+        rounding = 4.0 * np.finfo(np.float64).eps * np.abs(self.vertices).max() * np.sqrt(longest)
+        return read_only(self.face_areas > np.maximum(FLAT_FACE * longest, rounding))
 
     @cached_property
     def face_normals(self) -> FloatArray:

@@ -24,9 +24,10 @@ class Subsample:
     indices: IntArray
 
 
-def farthest_points(shape: TriangleMesh | PointCloud, count: int, start: int = 0) -> IntArray:
+def farthest_points(shape: TriangleMesh | PointCloud, count: int, start: int | None = None) -> IntArray:
     """Vertices chosen one after another, each the farthest from all chosen before: (count,) indices, `start` first.
 
+    start : None for the first vertex that any face uses; any point of a cloud may be.
     The distance is Euclidean, straight through space: it differs from geodesic sampling only between parts that
     nearly touch, and 4K of 50K vertices take half a second and one number a vertex of memory.
     Every prefix is a regular sample itself. Vertices that no face uses are never chosen; ties go to the lower index.
@@ -34,11 +35,13 @@ def farthest_points(shape: TriangleMesh | PointCloud, count: int, start: int = 0
     Raises ParameterError if `count` exceeds the number of vertices to choose from, or `start` is not one of them.
     """
     instance_of("shape", shape, TriangleMesh, PointCloud)
-    start = vertex_index("start", start, shape.vertex_count)
     allowed = shape.is_referenced if isinstance(shape, TriangleMesh) else np.ones(shape.vertex_count, dtype=bool)
     count = count_in("count", count, 1, int(allowed.sum()))
+    start = int(np.argmax(allowed)) if start is None else vertex_index("start", start, shape.vertex_count)
     if not allowed[start]:
-        raise ParameterError(f"start must be a vertex of some face, but no face uses {start}.")
+        raise ParameterError(
+            f"start must be a vertex of some face, but no face uses {start}. Leave it out to begin with one."
+        )
     size = np.ptp(shape.vertices, axis=0).max()
     unit = (shape.vertices - shape.vertices.min(axis=0)) / (
         size if size > 0 else 1.0
@@ -47,11 +50,12 @@ def farthest_points(shape: TriangleMesh | PointCloud, count: int, start: int = 0
     return read_only(_farthest_from_chosen(np.ascontiguousarray(unit.T), distances, count, start))
 
 
-def subsample(shape: TriangleMesh | PointCloud, count: int, *, start: int = 0) -> Subsample:
+def subsample(shape: TriangleMesh | PointCloud, count: int, *, start: int | None = None) -> Subsample:
     """A cloud of `count` farthest points of the shape, with its (area-weighted vertex) normals and its vertex
     numbers.
 
-    start : the vertex taken first. Every smaller sample from it is the beginning of a larger one.
+    start : the vertex taken first, as for `farthest_points`. Every smaller sample from it is the beginning of a larger
+        one.
     Where a chosen vertex of a mesh has no normal (all faces around it are flat), the cloud is left without normals.
 
     Raises ParameterError as `farthest_points` does.

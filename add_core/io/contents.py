@@ -35,7 +35,7 @@ class FileContents:
 
     def shape(self, name: str) -> Shape:
         """A mesh if there are faces, otherwise a point cloud; a mesh's normals follow from its faces."""
-        if self.faces is not None and len(self.faces):
+        if self.faces is not None and np.size(self.faces):
             return TriangleMesh(self.vertices, self.faces, name=name)
         return PointCloud(self.vertices, self.normals, name=name)
 

@@ -168,6 +168,8 @@ def _checked_fields(fields: Mapping[str, ArrayLike], vertex_count: int) -> Field
     checked: Fields = {}
     for name, values in fields.items():
         try:
+            if np.iscomplexobj(values):
+                raise TypeError
             array = np.asarray(values, dtype=np.float64)
         except (TypeError, ValueError):
             raise ParameterError(f"field {name!r} must hold real numbers, but it does not.") from None

@@ -22,7 +22,7 @@ def read(data: bytes) -> FileContents:
     """
     try:
         with np.load(io.BytesIO(data), allow_pickle=False) as archive:
-            arrays = {name: archive[name] for name in archive.files}
+            arrays = {name: np.asarray(archive[name]) for name in archive.files}
     except (
         ValueError,
         OSError,
@@ -32,6 +32,7 @@ def read(data: bytes) -> FileContents:
         zipfile.BadZipFile,
         zlib.error,
         NotImplementedError,
+        RuntimeError,  # encrypted, or said to be
     ) as error:
         raise ShapeFileError(
             f"is not a readable NPZ archive ({' '.join(str(error).split())[:120].rstrip('.')})."

@@ -7,12 +7,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .._check import IntArray
+from .._check import IntArray, array_of, index_array, instance_of
 from ..errors import ParameterError
 from ..geometry import TriangleMesh
 from ..io import Collection
 from .middles import Middles
-from .training_set import TrainingShape, places_of
+from .training_set import UNKNOWN, TrainingShape, places_of, training_shapes
 from .variations import vary
 
 
@@ -29,6 +29,14 @@ class LearningTask:
     validation: Sequence[TrainingShape] = ()
     symmetry: IntArray | None = None
     reference: TriangleMesh | None = None
+
+    def __post_init__(self) -> None:
+        training_shapes("training", self.training)
+        training_shapes("validation", self.validation)
+        if self.symmetry is not None:
+            _check_involution(self.symmetry)
+        if self.reference is not None:
+            instance_of("reference", self.reference, TriangleMesh)
 
     @classmethod
     def of(cls, collection: Collection, *, most: int | None = None, variations: int = 0, seed: int = 0) -> LearningTask:
@@ -69,6 +77,16 @@ class LearningTask:
         ]
         symmetry = self.symmetry if middles is None else middles.symmetry
         return LearningTask([*self.training, *varied], validation, symmetry, self.reference)
+
+
+def _check_involution(symmetry: IntArray) -> None:
+    """Raise ParameterError unless the places, as far as they are known, mostly lead back to themselves in two steps."""
+    mirror = np.asarray(index_array("symmetry", symmetry, np.size(array_of("symmetry", symmetry)), least=UNKNOWN))
+    known = np.flatnonzero(mirror >= 0)
+    if (mirror[mirror[known]] == known).sum() < 0.5 * len(known):
+        raise ParameterError(
+            "symmetry must be the place that mirrors each place, and lead back in two steps, but it mostly does not."
+        )
 
 
 def _held(collection: Collection, chosen: IntArray) -> np.ndarray:

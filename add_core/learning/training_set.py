@@ -14,7 +14,7 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from .._check import FloatArray, IntArray, index_array, one_of, read_only
+from .._check import FloatArray, IntArray, index_array, instance_of, one_of, read_only
 from ..errors import GeometryError, ParameterError
 from ..geometry import PointCloud, TriangleMesh
 from ..io import Collection
@@ -39,6 +39,7 @@ class TrainingShape:
     places: IntArray
 
     def __post_init__(self) -> None:
+        instance_of("shape", self.shape, TriangleMesh, PointCloud)
         index_array("places", self.places, 2**31, count=self.shape.vertex_count, least=UNKNOWN)
         if not (np.asarray(self.places) >= 0).any():
             raise ParameterError(f"places must be known for some vertices of {self.shape.name!r}, but all are -1.")
@@ -88,6 +89,14 @@ class PreparedShape:
         table = np.full(int(self.places.max()) + 1, UNKNOWN)
         table[self.places[known]] = known
         return read_only(table)
+
+
+def training_shapes(name: str, shapes: object) -> None:
+    """Raise ParameterError unless `shapes` is a sequence of training shapes."""
+    remedy = "Name the vertices of each by TrainingShape(shape, places), or give a collection."
+    instance_of(name, shapes, Sequence, remedy=remedy)
+    for number, item in enumerate(shapes if isinstance(shapes, Sequence) else ()):
+        instance_of(f"{name}[{number}]", item, TrainingShape, remedy=remedy)
 
 
 def places_of(collection: Collection, indices: Iterable[int], *, reference: int = 0) -> list[TrainingShape]:

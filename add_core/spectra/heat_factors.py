@@ -87,6 +87,13 @@ class Factors:
             sizes.pop(0)
 
 
+def _factorised(matrix: csc_array) -> SuperLU:
+    """Positive definite, so no pivoting; a surface's supernodes are small, hence narrow panels."""
+    return splu(
+        matrix, permc_spec="NATURAL", diag_pivot_thresh=0.0, relax=4, panel_size=1, options={"SymmetricMode": True}
+    )
+
+
 @dataclass(frozen=True, eq=False)
 class _SparseFactor:
     lu: SuperLU
@@ -100,10 +107,11 @@ class _SparseFactor:
         elimination, n = pattern.elimination, pattern.vertex_count
         progress(0, 1)
         matrix = csc_array((values[elimination.entries], elimination.indices, elimination.indptr), shape=(n, n))
-        # Positive definite, so no pivoting; a surface's supernodes are small, hence narrow panels.
-        lu = splu(
-            matrix, permc_spec="NATURAL", diag_pivot_thresh=0.0, relax=4, panel_size=1, options={"SymmetricMode": True}
-        )
+        try:
+            lu = _factorised(matrix)
+        except RuntimeError:  # a piece of slivers alone, whose mass is lost beside γW: singular by rounding
+            matrix.setdiag(matrix.diagonal() * (1.0 + 16.0 * np.finfo(np.float64).eps))
+            lu = _factorised(matrix)
         return cls(lu, gamma, root[elimination.order])
 
     @property

@@ -17,6 +17,8 @@ TOLERANCE = 1e-5
 """Relative accuracy of a kernel in the mass-weighted norm, and of the heat left at its source, by default."""
 STILL = 1e12
 """Times later than this over Weyl's first eigenvalue, when all heat is even to rounding, are taken for that one."""
+LEAST_TIME = 1e-300
+"""Times earlier than this, whose reciprocals are too large to count, are taken for it: no heat has moved yet."""
 _FACTOR_BYTES = 256 * 2**20
 
 
@@ -63,7 +65,7 @@ class HeatFlow:
         Raises ParameterError for a time that is not positive and a source that is no vertex or has no mass.
         """
         source, theta, time = self._vertex(source), finite("theta", theta), positive("time", time)
-        time = min(time, self._last)
+        time = min(max(time, LEAST_TIME), self._last)
         gamma = 10.0 ** np.floor(np.log10(time)) / 4
         basis = self._basis_at(source, theta, gamma)
         column = np.empty(len(self._root))
@@ -76,7 +78,7 @@ class HeatFlow:
         The anisotropic heat kernel signature of one vertex (section 4.1), straight from the operator.
         Raises like `kernel`.
         """
-        source, moments = self._vertex(source), np.minimum(positive_array("times", times), self._last)
+        source, moments = self._vertex(source), np.clip(positive_array("times", times), LEAST_TIME, self._last)
         angles = [finite("thetas", angle) for angle in np.atleast_1d(numbers("thetas", thetas))]
         # A diagonal value converges twice as fast as a column, so one factorisation serves one and a half decades.
         gammas = 10.0 ** (1.5 * np.floor(np.log10(moments) / 1.5)) / 2

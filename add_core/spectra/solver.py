@@ -13,6 +13,7 @@ from scipy.sparse.linalg import ArpackError, eigsh
 
 from .._check import BoolArray, FloatArray, IntArray
 from ..errors import ConvergenceError
+from .dense import dense_pairs
 from .factorisation import factorise, factorise_near
 from .fronts import FrontTree
 from .lanczos import SMOOTHING, RitzPairs, shift_invert_lanczos
@@ -76,7 +77,8 @@ class PencilSolver:
         functions[self.active, : len(kernel)] = kernel.T / root[:, None]
         functions[self.active, len(kernel) :] = pairs.vectors / root[:, None]
         orient(functions[:, len(kernel) :])
-        return Eigenpairs(np.concatenate([np.zeros(len(kernel)), pairs.values]), functions, fallback)
+        values = np.concatenate([np.zeros(len(kernel)), np.maximum(pairs.values, 0.0)])
+        return Eigenpairs(values, functions, fallback)
 
     @cached_property
     def active(self) -> BoolArray:
@@ -118,7 +120,7 @@ class PencilSolver:
         if count == 0:
             return StandardPairs(np.empty(0), np.empty((n, 0))), ""
         if n <= DENSE_SIZE or 2.2 * count + 200 > 0.75 * n:
-            return _dense(matrix, kernel, count), ""
+            return dense_pairs(matrix, kernel, count, scale), ""
         shift, problem = SHIFT * scale, ""
         for block, always in ((12, False), (16, True), (32, True)):
             try:
@@ -130,7 +132,7 @@ class PencilSolver:
         method = "dense eigensolver" if n <= DENSE_RESCUE else "scipy.sparse.linalg.eigsh"
         _log.warning("Block Lanczos failed (%s) Using the %s instead.", problem, method)
         if n <= DENSE_RESCUE:
-            return _dense(matrix, kernel, count), method
+            return dense_pairs(matrix, kernel, count, scale), method
         return _by_arpack(matrix, kernel, count, scale), method
 
     def _balanced_shift(self, values: FloatArray, shift: float, count: int) -> float:
@@ -201,13 +203,6 @@ def _kernel(matrix: csr_array, root: FloatArray) -> FloatArray:
     kernel[labels, np.arange(len(root))] = root
     kernel /= np.linalg.norm(kernel, axis=1, keepdims=True)
     return kernel
-
-
-def _dense(matrix: csr_array, kernel: FloatArray, count: int) -> StandardPairs:
-    """By LAPACK, the kernel lifted above the whole spectrum so that the smallest eigenvalues are those beside it."""
-    top = 2.0 * float(abs(matrix).sum(axis=1).max())
-    values, vectors = np.linalg.eigh(matrix.toarray() + top * (kernel.T @ kernel))
-    return StandardPairs(np.maximum(values[:count], 0.0), vectors[:, :count])
 
 
 def _by_arpack(matrix: csr_array, kernel: FloatArray, count: int, scale: float) -> StandardPairs:

@@ -229,3 +229,12 @@ def test_princeton_says_what_it_measures_with():
         princeton(**arguments, area=1.0)
     with pytest.raises(ParameterError, match=r"distances must have shape \(2, 2\), but it has \(3, 3\)"):
         princeton(**arguments, area=1.0, distances=np.zeros((3, 3)))
+
+
+def test_left_and_right_need_a_symmetry_and_errors_need_lengths():
+    points = np.random.default_rng(0).normal(size=(5, 3))
+    with pytest.raises(ParameterError, match=r"symmetry must be the \(n,\) mirror image of each target point"):
+        right_side(points, points, np.arange(5), symmetry=None)
+    for table in (np.full((5, 5), np.nan), -np.ones((5, 5))):
+        with pytest.raises(ParameterError, match="distances must be lengths, inf between components, but some are"):
+            princeton(points, points, np.arange(5), distances=table, area=1.0)

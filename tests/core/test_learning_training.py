@@ -356,3 +356,27 @@ def test_nothing_to_learn_from_is_explained(tmp_path):
         train([body(0)], tmp_path, architecture="ADD7")
     with pytest.raises(ParameterError, match="all are -1"):
         TrainingShape(body(0).shape, np.full(162, -1))
+
+
+@pytest.mark.parametrize(
+    ("symmetry", "problem"),
+    [
+        (np.zeros((3, 3), dtype=int), r"symmetry must have shape \(n,\)"),
+        ("abc", r"symmetry must have shape \(n,\)"),
+        (np.arange(162) + 10**6, "symmetry must be from -1 to 161"),
+        (np.roll(np.arange(162), 1), "lead back in two steps, but it mostly does not"),
+    ],
+)
+def test_a_symmetry_that_is_none_is_refused_before_anything_is_computed(symmetry, problem):
+    with pytest.raises(ParameterError, match=problem):
+        LearningTask([body(0), body(1)], symmetry=symmetry)
+
+
+@pytest.mark.parametrize("data", [None, 3, "humans", [None, None], [body(0).shape]])
+def test_what_is_no_set_of_training_shapes_is_explained(data, tmp_path):
+    with pytest.raises(
+        ParameterError, match=r"training(\[0\])? must be a (Sequence|TrainingShape), but it is .*Name the"
+    ):
+        train(data, tmp_path)
+    with pytest.raises(ParameterError, match="shape must be a TriangleMesh or a PointCloud, but it is None"):
+        TrainingShape(None, np.arange(3))

@@ -3,6 +3,7 @@
 import gzip
 import os
 import tracemalloc
+import zipfile
 
 import numpy as np
 import pytest
@@ -11,6 +12,7 @@ from scipy.io import savemat
 from add_core.cli import main
 from add_core.errors import AddError, GeometryError, ShapeFileError
 from add_core.geometry import TriangleMesh
+from add_core.geometry.shapes import sphere
 from add_core.io import extensions, load_shape, save_shape
 
 HUGE = "99999999999"
@@ -170,6 +172,20 @@ def test_a_malformed_file_is_explained_in_one_line(tmp_path, capsys, name):
     assert expected in said
     assert str(tmp_path / name) in said
     assert peak < 50e6
+
+
+def test_npz_archives_of_other_things_are_explained_in_one_line(tmp_path, capsys):
+    ball = sphere(1)
+    np.savez(tmp_path / "number.npz", vertices=ball.vertices, faces=3)
+    with zipfile.ZipFile(tmp_path / "junk.npz", "w") as archive:
+        archive.writestr("vertices.npy", b"junk")
+    np.savez(tmp_path / "good.npz", vertices=ball.vertices, faces=ball.faces)
+    data = bytearray((tmp_path / "good.npz").read_bytes())
+    data[data.find(b"PK\1\2") + 8] |= 1
+    (tmp_path / "secret.npz").write_bytes(data)
+    assert "faces must have shape (m, 3)" in one_line(capsys, tmp_path / "number.npz")
+    assert "must hold real numbers" in one_line(capsys, tmp_path / "junk.npz")
+    assert "is encrypted" in one_line(capsys, tmp_path / "secret.npz")
 
 
 def test_a_missing_file_a_folder_and_a_pipe_are_explained(tmp_path, capsys):

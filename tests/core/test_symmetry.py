@@ -203,3 +203,11 @@ def test_points_in_one_place_do_not_hide_which_way_a_cloud_is_turned():
     assert preserved_orientation(cloud, cloud, np.arange(len(points))) == 1.0
     assert preserved_orientation(mirrored, cloud, np.arange(len(points))) == 0.0
     assert preserved_orientation(PointCloud(np.eye(3)[:2]), cloud, [0, 1]) == 0.5
+
+
+def test_a_neutral_pose_that_is_not_quite_symmetric_has_the_exact_map_of_its_triangles():
+    collection = humans()
+    for index in (0, 10):
+        found = mirror_symmetry(collection[index])
+        assert found.found
+        assert_array_equal(found.eta, collection.symmetry)
