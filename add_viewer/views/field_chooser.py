@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import QGridLayout, QLabel, QPushButton, QToolButton, QWidget
+from PySide6.QtWidgets import QGridLayout, QLabel, QToolButton, QWidget
 
 from ..models.field_catalogue import FieldEntry, catalogue, entry_of
 from ..models.fields import FieldChoice
 from ..models.insights import Insights
 from ..models.session import Session
+from .elided_button import ElidedButton
 from .field_list import FieldList
 from .icons import icon
 from .theme import GRID, Theme
@@ -32,7 +33,7 @@ class FieldChooser(QWidget):
         super().__init__()
         self._session, self._insights = session, insights
         self.list = FieldList(window)
-        self.buttons = (QPushButton(), QPushButton())
+        self.buttons = tuple(ElidedButton(words) for words in _HELP)
         self.close_button = QToolButton()
         self._panel = 0
         self._build()
@@ -54,7 +55,6 @@ class FieldChooser(QWidget):
             label.setBuddy(button)
             label.setFixedWidth(7 * GRID)
             label.setToolTip(words)
-            button.setToolTip(words)
             button.setProperty("choice", True)
             button.setAccessibleName(name.replace("&", ""))
             button.setLayoutDirection(Qt.LayoutDirection.LeftToRight)
@@ -94,7 +94,7 @@ class FieldChooser(QWidget):
     def _show(self) -> None:
         state, entries = self._session.state, self.entries
         for button, choice in zip(self.buttons, (state.field, state.compare), strict=True):
-            button.setText("Nothing" if choice is None else _fitting(entry_of(entries, choice).title))
+            button.setText("Nothing" if choice is None else entry_of(entries, choice).title)
         self.close_button.setVisible(state.compare is not None)
 
     def show_theme(self, theme: Theme) -> None:
@@ -103,7 +103,3 @@ class FieldChooser(QWidget):
         self.close_button.setIcon(icon("mdi6.close", theme.muted))
         for button in self.buttons:
             button.setIcon(icon("mdi6.chevron-down", theme.muted))
-
-
-def _fitting(title: str) -> str:
-    return title if len(title) <= 30 else title[:29] + "…"

@@ -173,6 +173,7 @@ class MainWindow(QMainWindow):
     def _show_active(self) -> None:
         shape = self.session.state.active
         self.start.show_way_back(None)
+        self.menus.show_hidden(False)
         self.pages.setCurrentWidget(self.start if shape is None else self.scene)
         self.setWindowTitle(TITLE if shape is None else f"{shape.name} — {TITLE}")
         self.message.hide()
@@ -183,8 +184,10 @@ class MainWindow(QMainWindow):
         self.panels.show(shape is not None and self.pages.currentWidget() is self.scene)
 
     def show_start(self) -> None:
-        """Offer shapes to open; the session stays as it is."""
+        """Offer shapes to open; the session stays as it is, and nothing is done to it unseen."""
         shape = self.session.state.active
+        self.menus.show_hidden(shape is not None)
+        self.parameters.play.setChecked(False)
         self.start.show_way_back(None if shape is None else shape.name)
         self.pages.setCurrentWidget(self.start)
         self.panels.show(False)

@@ -102,6 +102,12 @@ ARRANGING = (
     Entry("linked", "&Link the cameras", "L", "mdi6.link-variant", "Turn one view, and all turn"),
     Entry("common_range", "One &range of colours", "R", "mdi6.arrow-expand-vertical", "The same for all shapes"),
 )
+ON_A_SHAPE = (
+    *("undo", "redo", "go_to", "pick_mirror", "clear", "play", "script"),
+    *("screenshot", "figure", "animation", "curves", "close"),
+    *(entry.name for entry in (*LOOKS, *FIELDS, *SWITCHES, *ARRANGING)),
+)
+"""Actions that change or show what is drawn: none of them works unseen, behind the start page."""
 LAYOUT_NAMES = {"grid": "&Grid", "strip": "&One row", "single": "The &source alone"}
 CHOICES = {
     "theme": ("&Theme", {"system": "As the &system", "light": "&Light", "dark": "&Dark"}),
@@ -117,13 +123,22 @@ class Menus:
         self._window, self._display = window, display
         self.actions: dict[str, QAction] = {}
         self._icons: list[tuple[QAction, str]] = []
+        self._on_a_shape = QActionGroup(window)
+        self._on_a_shape.setExclusionPolicy(QActionGroup.ExclusionPolicy.None_)
         bar = window.menuBar()
         self.file = self._menu(bar.addMenu("&File"), FILE)
         self.edit = self._menu(bar.addMenu("&Edit"), EDIT)
         self.view = self._view_menu(bar.addMenu("&View"))
         self.tools = self._menu(bar.addMenu("&Tools"), TOOLS)
         self.help = self._menu(bar.addMenu("&Help"), HELP)
+        for name in ON_A_SHAPE:
+            self._on_a_shape.addAction(self.actions[name])
         display.changed.connect(self._show_display)
+
+    def show_hidden(self, hidden: bool) -> None:
+        """Let nothing be done to shapes that are `hidden`; seen again, each action is as enabled as it would be."""
+        for group in (self._on_a_shape, self._layouts):
+            group.setEnabled(not hidden)
 
     def on(self, name: str, do: Callable[[], object]) -> None:
         """Let action `name` call `do`."""
@@ -162,7 +177,8 @@ class Menus:
 
     def _arrangement_menu(self, menu: QMenu) -> None:
         """What the session says of several views, unlike the switches, which are a person's taste."""
-        layouts, group = menu.addMenu("&Views of several shapes"), QActionGroup(self._window)
+        layouts = menu.addMenu("&Views of several shapes")
+        group = self._layouts = QActionGroup(self._window)
         for value, text in LAYOUT_NAMES.items():
             action = QAction(text, self._window, checkable=True, checked=value == "grid")
             self.actions[f"layout:{value}"] = group.addAction(action)

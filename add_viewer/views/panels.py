@@ -6,6 +6,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QDockWidget, QMainWindow, QMenu, QWidget
 
 from .dock_title import DockTitle
+from .focus_keys import FocusKeys
 from .theme import Theme
 
 
@@ -14,6 +15,8 @@ class Panels:
 
     def __init__(self, window: QMainWindow, menu: QMenu) -> None:
         self._window, self._menu = window, menu
+        self._keys = FocusKeys(window)
+        window.installEventFilter(self._keys)
         self._docks: list[QDockWidget] = []
         self._titles: list[DockTitle] = []
         self._hidden: list[QDockWidget] | None = None
@@ -54,6 +57,7 @@ class Panels:
         dock = QDockWidget(title, self._window)
         dock.setObjectName(title)
         dock.setWidget(widget)
+        dock.installEventFilter(self._keys)  # a floating one is a window of its own
         title_bar = DockTitle(dock)
         dock.setTitleBarWidget(title_bar)
         self._menu.addAction(dock.toggleViewAction())

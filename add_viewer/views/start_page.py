@@ -147,7 +147,9 @@ class StartPage(QWidget):
     def show_way_back(self, name: str | None) -> None:
         """Offer to go back to the open shape `name`, if there is one."""
         self.back_button.setVisible(name is not None)
-        self.back_button.setText(f"Back to {name}")
+        self.back_button.setText(f"Back to {name}".replace("&", "&&"))
+        self.back_button.setShortcut(Qt.Key.Key_Escape)
+        self.back_button.setToolTip("Leave this page (Esc)")
 
     def show_recent(self, references: list[str]) -> None:
         """List what was opened lately."""

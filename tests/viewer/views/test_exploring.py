@@ -120,6 +120,20 @@ def test_a_field_is_found_by_typing_and_drawn_and_undone(person, qtbot):
     assert not person.results.fields
 
 
+def test_a_long_name_is_cut_and_does_not_widen_the_panel(person, qtbot):
+    person.open()
+    chooser, panel = person.assembly.exploring.chooser, person.window.parameters
+    button = chooser.buttons[0]
+    for title in ("Heat", "Where mADD3 of a training with a long name takes left for right"):
+        button.setText(title)
+        qtbot.wait(20)
+        assert panel.width() == panel.parentWidget().width()
+        assert button.fontMetrics().horizontalAdvance(button.shown_text) < button.width() - button.iconSize().width()
+        assert (button.shown_text == title) == (title == "Heat")
+        assert (title in button.toolTip()) == (title != "Heat")
+        assert "Ctrl+F" in button.toolTip()
+
+
 def test_the_list_is_walked_by_keys_and_left_by_escape_and_chosen_by_a_click(person, qtbot):
     person.open()
     chooser = person.assembly.exploring.chooser
