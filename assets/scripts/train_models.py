@@ -6,12 +6,13 @@
     python train_models.py humans-4 -o RUN4 --inputs INPUTS --start RUN3
     python train_models.py humans-5 -o RUN5 --inputs INPUTS --start RUN4
     python train_models.py correspondence -o RUN --inputs INPUTS --start RUN5
+    python train_models.py humans-6 -o RUN6 --inputs INPUTS --start RUN5
     python train_models.py dogs -o RUN
     python train_models.py osd -o RUN --inputs INPUTS
 
-humans-madd3 learns in five stages, each from more bodies than the last. About half of the time goes into spectra: 17
-operators for each body, 7 to 15 seconds on a core, and 20 MB of disk each in INPUTS. Each may be stopped and started
-again; RUN/model.safetensors is the best so far.
+humans-madd3 learns in six stages, all but the last from more bodies than the one before. About half of the time goes
+into spectra: 17 operators for each body, 7 to 15 seconds on a core, and 20 MB of disk each in INPUTS. Each may be
+stopped and started again; RUN/model.safetensors is the best so far.
 """
 
 from __future__ import annotations
@@ -53,6 +54,7 @@ STAGES = {
     "humans-3": Stage(376, replace(LATER, steps=14000, learning_rate=7e-4)),
     "humans-4": Stage(490, replace(LATER, steps=9000, learning_rate=6e-4, seed=2)),
     "humans-5": Stage(980, replace(LATER, steps=15000, learning_rate=7e-4, seed=3)),
+    "humans-6": Stage(980, replace(LATER, steps=10000, learning_rate=5e-4, noise=0.04, seed=4)),
     "correspondence": Stage(980, replace(COMMON, steps=4000, loss="multinomial")),
     "dogs": Stage(36, replace(COMMON, steps=3000, validate_every=250)),
 }
