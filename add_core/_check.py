@@ -157,6 +157,8 @@ def _with_article(name: str) -> str:
 
 def _number(name: str, value: Any, expectation: str, holds: Any) -> float:
     try:
+        if isinstance(value, str | bytes):
+            raise TypeError
         number = float(value)
     except (TypeError, ValueError):
         raise ParameterError(f"{name} must be a number, but it is {value!r}.") from None

@@ -164,6 +164,19 @@ def test_numbers_are_neither_text_nor_complex_nor_ragged(call, values, found):
 @pytest.mark.parametrize(
     "call",
     [
+        lambda: LAPLACIAN.stiffness("1"),
+        lambda: AnisotropicLaplacian(MESH, alpha="50"),
+        lambda: HeatFlow(LAPLACIAN).kernel(0, theta=0.0, time="0.1"),
+    ],
+)
+def test_a_number_in_text_is_not_a_number(call):
+    with pytest.raises(ParameterError, match="must be a number, but it is '"):
+        call()
+
+
+@pytest.mark.parametrize(
+    "call",
+    [
         lambda numbers: TriangleMesh(MESH.vertices, numbers),
         lambda numbers: geodesic_distances(MESH, numbers),
         lambda numbers: cmc(MESH.vertices, MESH.vertices, numbers),
