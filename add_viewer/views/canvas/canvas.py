@@ -80,7 +80,7 @@ class Canvas(OrbitView):
         """Draw the direction field, or take it away."""
         if self._needles is not None:
             self.renderer.RemoveActor(self._needles.actor)
-        self._needles = None if field is None else Needles(field)
+        self._needles = None if field is None else Needles(field, self._ball)
         if self._needles is not None:
             self.renderer.AddActor(self._needles.actor)
         self.update()
@@ -101,7 +101,14 @@ class Canvas(OrbitView):
         """Draw the discs of a cloud `factor` times as large as they need to be to touch each other."""
         self._point_size = factor
         self._size_points()
+        if self._needles is not None:
+            self._needles.lift(self._ball)
         self.update()
+
+    @property
+    def _ball(self) -> float:
+        """Radius of what is drawn for a point of the shown cloud; 0 for a mesh."""
+        return 0.0 if self.shown is None else self._point_size * _ball_radius(self.shown)
 
     def _size_points(self, finer: int = 1) -> None:
         """In pixels: on a picture `finer` times as fine, a disc has as many times more across."""
@@ -191,13 +198,19 @@ class Canvas(OrbitView):
 
 
 def _places(shape: Shape) -> tuple[FloatArray, FloatArray | None]:
-    """Where marks go, (n, 3), and what they stand on: the discs of a cloud are as high as wide."""
+    """Where marks go, (n, 3), and what they stand on."""
     if isinstance(shape, TriangleMesh):
         return shape.vertices, shape.vertex_normals
     if shape.normals is None:
         return shape.vertices, None
-    disc = 0.5 * np.ptp(shape.vertices, axis=0).max() / np.sqrt(shape.vertex_count)
-    return shape.vertices + disc * shape.normals, shape.normals
+    return shape.vertices + _ball_radius(shape) * shape.normals, shape.normals
+
+
+def _ball_radius(shape: Shape) -> float:
+    """The discs of a cloud are balls to the eye: as high as wide."""
+    if isinstance(shape, TriangleMesh):
+        return 0.0
+    return float(0.5 * np.ptp(shape.vertices, axis=0).max() / np.sqrt(shape.vertex_count))
 
 
 def _add_lights(view: OrbitView) -> None:

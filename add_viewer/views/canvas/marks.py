@@ -111,10 +111,13 @@ def _flat_actor(mapper: pv.DataSetMapper, colour: Colour) -> pv.Actor:
 
 
 class Needles:
-    """The directions of heat: slim diamonds that lie just above the skin and turn with θ."""
+    """The directions of heat: slim diamonds that lie just above the skin and turn with θ.
 
-    def __init__(self, field: DirectionField) -> None:
-        self._field = field
+    height : of the skin above the field's places; the balls of a cloud would hide what lies within them.
+    """
+
+    def __init__(self, field: DirectionField, height: float = 0.0) -> None:
+        self._field, self._height, self._theta = field, height, 0.0
         self._across = np.cross(field.normals, field.max_directions)
         count = len(field.positions)
         corners = 4 * np.arange(count)[:, None]
@@ -124,13 +127,18 @@ class Needles:
         self.actor.prop.ambient, self.actor.prop.diffuse = 1.0, 0.0
         self.turn(0.0)
 
+    def lift(self, height: float) -> None:
+        """Lie on a skin that is `height` above the field's places."""
+        self._height = height
+        self.turn(self._theta)
+
     def turn(self, theta: float) -> None:
         """Point along the direction of maximum curvature turned by `theta`, in the hue of `theta`."""
-        field = self._field
+        field, self._theta = self._field, theta
         along = np.cos(theta) * field.max_directions + np.sin(theta) * self._across
         across = np.cross(field.normals, along)
         reach, breadth = 0.5 * _NEEDLE_LENGTH * field.spacing, 0.5 * _NEEDLE_WIDTH * field.spacing
-        middle = field.positions + _NEEDLE_LIFT * field.normals
+        middle = field.positions + (self._height + _NEEDLE_LIFT) * field.normals
         corners = np.stack(
             [middle + reach * along, middle + breadth * across, middle - reach * along, middle - breadth * across],
             axis=1,

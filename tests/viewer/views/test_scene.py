@@ -183,6 +183,18 @@ def test_the_discs_of_a_cloud_grow_with_the_picture(people, qtbot):
     assert covered(3) == pytest.approx(covered(1), rel=0.06)
 
 
+@pytest.mark.parametrize("size", [1.0, 2.0])
+def test_directions_lie_on_the_balls_of_a_cloud_and_not_within(person, qtbot, size):
+    person.open("clouds/0")
+    person.window.display.set("arrows", True)
+    qtbot.waitUntil(lambda: person.canvas._needles is not None, timeout=20000)
+    person.session.set_look("clouds/0", point_size=size)
+    shown = person.pixels()
+    person.window.display.set("arrows", False)
+    bare = person.pixels()
+    assert (np.abs(shown - bare).max(axis=2) > 60).mean() > 8e-4
+
+
 def test_raised_hands_stay_under_the_label_and_others_take_the_whole_height(person, qtbot):
     person.window.resize(1440, 900)
     person.open("humans/0")
