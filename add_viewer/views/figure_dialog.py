@@ -64,7 +64,7 @@ class FigureDialog(QDialog):
         for switch in (self.names, self.bars, self.curves):
             switch.setChecked(True)
             switch.toggled.connect(self._changed)
-        self.curves.setToolTip("At the picked points; they need a width of 115 mm.")
+        self.curves.setToolTip("At the picked points; they need a width of 140 mm.")
         buttons = QDialogButtonBox(QDialogButtonBox.StandardButton.Save | QDialogButtonBox.StandardButton.Cancel)
         buttons.button(QDialogButtonBox.StandardButton.Save).setText("Save…")
         buttons.accepted.connect(self.accept)

@@ -5,7 +5,6 @@
 
 from __future__ import annotations
 
-import textwrap
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -17,6 +16,7 @@ from matplotlib.figure import Figure
 from add_core.drawing.colour_maps import tone_map
 
 from .figure_plates import Bar, Plate
+from .figure_words import wrapped
 from .theme import LIGHT
 
 MM = 1.0 / 25.4
@@ -24,10 +24,11 @@ MM = 1.0 / 25.4
 _MARGIN, _GAP = 1.5, 3.0
 _LINE, _BAR = 3.1, 2.4
 """Heights in millimetres: of a line of 7-point text, and of a colour bar."""
-_LETTER = 1.28
-"""Width of a letter of 7-point text in millimetres."""
+_NAME: dict[str, Any] = {"size": 8, "weight": "bold", "color": LIGHT.text}
+_NAME_LINE = 3.6
+"""Height of a line of a name in millimetres."""
 _TALLEST = {1: 105.0, 2: 85.0}
-_CURVES, _NARROWEST = 58.0, 115.0
+_CURVES, _NARROWEST = 58.0, 140.0
 """Height of the curves in millimetres, and the narrowest page that they fit on."""
 
 
@@ -62,7 +63,7 @@ class Page:
         self.cell = choice.cell(self.columns)
         height, width = plates[0].pixels.shape[:2]
         self.picture = min(self.cell * height / width, _TALLEST.get(self.rows, 65.0))
-        self._head = max(self._lines(plate) for plate in plates) * _LINE + (1.0 if choice.names else 0.0)
+        self._head = max(self._head_of(plate) for plate in plates) if choice.names else 0.0
         self._foot = max(self._foot_of(plate) for plate in plates)
         curves = draw_curves if choice.curves and choice.has_room_for_curves else None
         pictures = 2 * _MARGIN + self.rows * (self._head + self.picture + self._foot + _GAP) - _GAP
@@ -81,24 +82,28 @@ class Page:
 
     # -- layout -------------------------------------------------------------------------------------------------------
 
-    def _lines(self, plate: Plate) -> int:
-        return 1 + len(self._wrapped(plate.caption)) if self._choice.names else 0
+    def _head_of(self, plate: Plate) -> float:
+        return len(self._named(plate)) * _NAME_LINE + len(self._wrapped(plate.caption)) * _LINE + 0.6
 
     def _foot_of(self, plate: Plate) -> float:
         if plate.bar is None or not self._choice.bars:
             return 0.0
         return 2.0 + _BAR + (len(self._wrapped(_words(plate.bar))) + 1.3) * _LINE
 
+    def _named(self, plate: Plate) -> list[str]:
+        """Three lines at most: names of neighbours never meet, and pictures keep their room."""
+        return wrapped(plate.name, self.cell, most=3, size=_NAME["size"], weight=_NAME["weight"])
+
     def _wrapped(self, text: str) -> list[str]:
-        whole = text.replace(" = ", "\u00a0=\u00a0")  # "θ = 45°" stays on one line
-        return textwrap.wrap(whole, max(12, int(self.cell / _LETTER))) if text else []
+        return wrapped(text.replace(" = ", "\u00a0=\u00a0"), self.cell, size=7)  # "θ = 45°" stays on one line
 
     def _draw(self, plate: Plate) -> None:
         left = _MARGIN + plate.column * (self.cell + _GAP)
         top = _MARGIN + plate.row * (self._head + self.picture + self._foot + _GAP)
         if self._choice.names:
-            self._write(left, top, [plate.name], weight="bold", size=8, color=LIGHT.text)
-            self._write(left, top + 1.15 * _LINE, self._wrapped(plate.caption))
+            name = self._named(plate)
+            self._write(left, top, name, apart=_NAME_LINE, **_NAME)
+            self._write(left, top + len(name) * _NAME_LINE, self._wrapped(plate.caption))
         axes = self._axes(left, top + self._head, self.cell, self.picture)
         axes.axis("off")
         axes.imshow(plate.pixels, interpolation="none", aspect="equal")
@@ -123,10 +128,10 @@ class Page:
         place = (left / whole[0], 1 - (top + height) / whole[1], width / whole[0], height / whole[1])
         return self.figure.add_axes(place)
 
-    def _write(self, left: float, top: float, lines: list[str], **style: Any) -> None:
+    def _write(self, left: float, top: float, lines: list[str], apart: float = _LINE, **style: Any) -> None:
         look: dict[str, Any] = {"size": 7, "color": LIGHT.muted, "va": "top"} | style
         for number, line in enumerate(lines):
-            height = 1 - (top + number * _LINE) / self.height
+            height = 1 - (top + number * apart) / self.height
             self.figure.text(left / self._choice.width, height, line, **look)
 
 

@@ -6,9 +6,12 @@ from typing import Any
 
 from matplotlib.backends.backend_qtagg import FigureCanvasQTAgg
 from matplotlib.figure import Figure
+from matplotlib.patches import Rectangle
 from PySide6.QtCore import QSize, Qt
 from PySide6.QtGui import QFont, QFontMetrics, QResizeEvent
 from PySide6.QtWidgets import QLabel, QStackedLayout, QVBoxLayout, QWidget
+
+from add_core.drawing.colours import MARKERS, hex_colour
 
 from ..models.insights import Insights, MatchQuality
 from ..models.session import Session
@@ -16,13 +19,13 @@ from .theme import GRID, LIGHT, Theme
 
 LEGEND = (
     "Share of matches within a geodesic radius of the truth. Solid: a mirror image counts as right; dashed: as wrong. "
-    "Grey: the other position of Refined. On the right: the share of exact matches."
+    "Thin: the other position of Refined. On the right: the share of exact matches."
 )
-_SHADES = (1.0, 0.62, 0.4)
+_SWATCH = 2.0 * GRID
 
 
 class QualityPlot(QWidget):
-    """One curve for each target, solid symmetric and dashed asymmetric; what the switch does not show is thin."""
+    """One colour for each target, solid symmetric and dashed asymmetric; what the switch does not show is thin."""
 
     def __init__(self, session: Session, insights: Insights) -> None:
         super().__init__()
@@ -85,23 +88,24 @@ class QualityPlot(QWidget):
         axes.set_xlabel("geodesic error ÷ √area", color=theme.muted, fontsize=8, labelpad=1)
         axes.set_title("Matches within that error", loc="left", fontsize=9, color=theme.text, pad=4)
         for number, (quality, label) in enumerate(zip(self.shown, labels, strict=True)):
-            self._draw_curves(axes, number, quality)
-            style: dict[str, Any] = {
-                "fontsize": 8,
-                "color": theme.text,
-                "alpha": _SHADES[number % len(_SHADES)],
-                "va": "top",
-            }
-            axes.text(1.02, 1.0 - 0.2 * number, label, transform=axes.transAxes, **style)
+            self._draw_curves(axes, _colour(number), quality)
+            self._name(axes, number, label)
         self.canvas.draw()  # type: ignore[attr-defined]
 
-    def _draw_curves(self, axes: Any, number: int, quality: MatchQuality) -> None:
+    def _draw_curves(self, axes: Any, colour: str, quality: MatchQuality) -> None:
         refined = self._session.state.matching.refined
         for (stage, symmetric), curve in quality.curves.items():
-            current = stage == refined
-            colour = self._theme.accent if current else self._theme.muted
-            line = {"lw": 2.0 if current else 1.0, "ls": "-" if symmetric else "--", "color": colour}
-            axes.plot(curve.x, curve.y, alpha=_SHADES[number % len(_SHADES)], **line)
+            width, alpha = (2.0, 1.0) if stage == refined else (1.0, 0.5)
+            axes.plot(curve.x, curve.y, color=colour, lw=width, alpha=alpha, ls="-" if symmetric else "--")
+
+    def _name(self, axes: Any, number: int, label: str) -> None:
+        """Beside the axes, after a swatch of the target's colour."""
+        room, size = axes.get_position(), self.canvas.size()
+        wide, high = _SWATCH / (room.width * max(size.width(), 1)), GRID / (room.height * max(size.height(), 1))
+        middle = 1.0 - high - min(0.2, 1.0 / len(self.shown)) * number
+        place: dict[str, Any] = {"transform": axes.transAxes, "clip_on": False}
+        axes.add_patch(Rectangle((1.02, middle - high / 2), wide, high, color=_colour(number), **place))
+        axes.text(1.02 + 1.4 * wide, middle, label, fontsize=8, color=self._theme.text, va="center", **place)
 
     def _label(self, quality: MatchQuality) -> str:
         state = self._session.state
@@ -112,7 +116,7 @@ class QualityPlot(QWidget):
     def _room(self, labels: list[str]) -> float:
         """Share of the width that the labels need."""
         widest = max((self._small.horizontalAdvance(label) for label in labels), default=0)
-        return min((widest + 3 * GRID) / max(self.canvas.width(), 1), 0.4)
+        return min((widest + 3 * GRID + 1.4 * _SWATCH) / max(self.canvas.width(), 1), 0.4)
 
     @property
     def _small(self) -> QFontMetrics:
@@ -128,3 +132,8 @@ class QualityPlot(QWidget):
 
     def sizeHint(self) -> QSize:
         return QSize(720, 240)
+
+
+def _colour(number: int) -> str:
+    """Of the target `number`: told apart by colour-blind readers, on light and dark."""
+    return hex_colour(MARKERS[number % len(MARKERS)])

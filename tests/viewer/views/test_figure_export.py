@@ -1,6 +1,8 @@
 """Figures for papers: what the window shows, as text, curves and pixels on one page."""
 
 import re
+from dataclasses import replace
+from itertools import combinations
 from pathlib import Path
 
 import numpy as np
@@ -77,6 +79,24 @@ def test_what_is_not_wanted_is_left_out(heated):
     assert all(figures.page(plates, choice).height < whole.height for choice in without)
     narrow = figures.page(plates, PageChoice(width=85.0))
     assert not narrow.figure.subfigs, "three plots need room"
+
+
+def test_names_of_neighbours_do_not_meet_however_narrow_the_page(heated):
+    figures = heated.assembly.figures
+    (plate, *_), names = figures.plates(0.5), ("Person 9, neutral, remeshed", "Unbreakablenamewithoutanyspaces", "Dog")
+    plates = [replace(plate, column=column, name=name) for column, name in enumerate(names)]
+    page = figures.page(plates, PageChoice(width=85.0, dpi=72))
+    page.figure.draw_without_rendering()
+    bold = [text for text in page.figure.texts if text.get_weight() == "bold"]
+    words = [text.get_text() for text in bold]
+    assert words[:3] == ["Person 9,", "neutral,", "remeshed"]
+    assert words[3].startswith("Unbreak")
+    assert words[3].endswith("…")
+    assert words[4:] == ["Dog"]
+    boxes = [text.get_window_extent() for text in bold]
+    cell = page.cell / 85.0 * page.figure.bbox.width
+    assert all(box.width < cell for box in boxes)
+    assert not any(one.overlaps(other) for one, other in combinations(boxes, 2))
 
 
 def test_the_dialog_shows_the_page_and_how_large_it_is(heated, qtbot):
