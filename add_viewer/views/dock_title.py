@@ -20,10 +20,11 @@ class DockTitle(QWidget):
         row.setContentsMargins(2 * GRID, 0, GRID // 2, 0)
         row.setSpacing(0)
         row.addWidget(name, 1)
-        for button, help_text in (
-            (self.float_button, "Float this panel, or put it back"),
-            (self.close_button, "Close this panel; View → Panels brings it back"),
+        for button, verb, help_text in (
+            (self.float_button, "Float", "Float this panel, or put it back"),
+            (self.close_button, "Close", "Close this panel; View → Panels brings it back"),
         ):
+            button.setAccessibleName(f"{verb} “{dock.windowTitle()}”")
             button.setProperty("quiet", True)
             button.setToolTip(help_text)
             row.addWidget(button)

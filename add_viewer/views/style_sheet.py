@@ -1,4 +1,4 @@
-"""The style sheet of every window: $names stand for the colours of the theme."""
+"""The style sheet of every window: $names stand for the colours of the theme, $tick for the file of its tick."""
 
 from __future__ import annotations
 
@@ -23,7 +23,10 @@ QDialogButtonBox { dialogbuttonbox-buttons-have-icons: 0; }
 QCheckBox { spacing: 8px; }
 QCheckBox::indicator { width: 12px; height: 12px; border: 1px solid $muted; border-radius: 3px;
     background: $field; }
-QCheckBox::indicator:checked { background: $accent; border-color: $accent; }
+QCheckBox::indicator:checked { background: $accent; border-color: $accent; image: url("$tick"); }
+QCheckBox::indicator:disabled { border-color: $line; }
+QCheckBox::indicator:checked:disabled { background: $muted; border-color: $muted; }
+QCheckBox::indicator:focus { border: 2px solid $text; width: 10px; height: 10px; }
 QMenu::separator { height: 1px; background: $line; margin: 4px 8px; }
 QStatusBar { background: $window; border-top: 1px solid $line; }
 QStatusBar QLabel { color: $muted; padding: 0 8px; }
@@ -44,9 +47,13 @@ QToolButton[quiet="true"] { border: 1px solid transparent; background: transpare
 QPushButton:hover, QToolButton:hover { border-color: $muted; }
 QPushButton:pressed, QToolButton:pressed, QToolButton:checked, QPushButton:checked { border-color: $accent;
     color: $accent; }
-QPushButton:focus, QToolButton:focus { border-color: $accent; }
+QPushButton:focus { border: 2px solid $accent; padding: 3px 9px; }
+QPushButton[choice="true"]:focus { padding: 3px 7px; }
+QToolButton:focus { border: 2px solid $accent; padding: 3px; }
+QToolButton[link="true"]:focus { border: none; padding: 1px 0; }
 QPushButton[primary="true"] { background: $accent; color: $on_accent; border-color: $accent;
     font-weight: 600; padding: 6px 16px; }
+QPushButton[primary="true"]:focus { border: 2px solid $text; padding: 5px 15px; }
 QToolTip { background: $panel; color: $text; border: 1px solid $line; padding: 4px; }
 QLabel[role="muted"] { color: $muted; }
 QLabel[role="heading"] { font-weight: 600; }
@@ -55,7 +62,7 @@ ShapeList::item { padding: 4px 4px; border: 1px solid transparent; border-radius
 ShapeList::item:hover { background: $field; }
 ShapeList::item:selected { background: $field; border: 1px solid $line; color: $text; }
 ShapeList::indicator { width: 11px; height: 11px; border: 1px solid $muted; border-radius: 3px; background: $field; }
-ShapeList::indicator:checked { background: $accent; border-color: $accent; }
+ShapeList::indicator:checked { background: $accent; border-color: $accent; image: url("$tick"); }
 QScrollArea, QListView { border: none; background: transparent; }
 QScrollBar { background: transparent; border: none; margin: 0; }
 QScrollBar:vertical { width: 10px; }

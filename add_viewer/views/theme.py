@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import asdict, dataclass
+from pathlib import Path
 
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QColor, QGuiApplication, QPalette, QPen
@@ -12,6 +13,7 @@ from .style_sheet import STYLE_SHEET
 
 GRID = 8
 """Every distance in the window is a multiple of this, or half of it, in device-independent pixels."""
+_ICONS = Path(__file__).parent.parent / "icons"
 
 
 @dataclass(frozen=True)
@@ -82,7 +84,8 @@ def apply_theme(theme: Theme) -> None:
     assert isinstance(app, QApplication)
     app.setStyle("Fusion")
     app.setPalette(_palette(theme))
-    app.setStyleSheet(STYLE_SHEET.substitute(asdict(theme)))
+    tick = (_ICONS / f"tick-{theme.name}.svg").as_posix()
+    app.setStyleSheet(STYLE_SHEET.substitute(asdict(theme), tick=tick))
 
 
 def round_pen(colour: QColor, width: float) -> QPen:
