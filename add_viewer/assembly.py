@@ -147,7 +147,7 @@ class Assembly:
         process = Process(identity.pid, identity.began, lambda pid, began: ProcessIdentity(pid, began).is_alive)
         run, later = self.worker.submit, Delay(KEEPING_PAUSE)
         self.keeping = KeepingController(self.session, self.results, run, later, process, read=read)
-        self.keeping.opened = lambda path: self.window.remember(str(path))
+        self.keeping.opened = self._session_opened
         self.keeping.failed = lambda reason: self._failures.append(reason)
         self.session_files = SessionFiles(self.window, self.keeping, explain)
         files = self.session_files
@@ -204,8 +204,10 @@ class Assembly:
             self.background.offer_to_go_on()
 
     def _train(self, request: TrainingRequest) -> None:
+        self.window.message.begin()
         id = self.training.start(request)
         if id is not None:
+            self.window.message.succeed()
             self.background.training_panel.select(id)
 
     def _explore(self) -> None:
@@ -220,7 +222,12 @@ class Assembly:
         self.exploring.symmetry.find_wanted.connect(self.exploration.symmetry.find)
         self.exploring.symmetry.compare_wanted.connect(self.exploration.symmetry.compare)
 
+    def _session_opened(self, path: Path) -> None:
+        self.window.message.succeed()
+        self.window.remember(str(path))
+
     def _opened(self, shape: OpenShape) -> None:
+        self.window.message.succeed()
         self.window.remember(shape.reference)
         if self._picks and len(self.session.state.shapes) >= len(set(self._files)):
             self.session.show_shape(self.session.state.shapes[0].key)  # picks are meant on the first

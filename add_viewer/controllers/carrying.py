@@ -1,4 +1,4 @@
-"""Picks of the active shape carried to the other shapes by the chosen matching."""
+"""Picks of the active shape carried to the other shapes: to their true places, or by the chosen matching."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ import numpy as np
 from add_core.geometry import TriangleMesh
 from add_core.io import known_matches, shipped_place
 
+from ..models.fields import MATCHED
 from ..models.picks import Pick
 from ..models.results import FloatArray, IntArray, Results
 from ..models.session import Session, SessionState
@@ -17,11 +18,16 @@ from ..models.shapes import OpenShape
 
 
 class CarryingController:
-    """Keeps `Results.carried` in step with picks, shapes and matching. Shapes with picks of their own keep those."""
+    """Keeps `Results.carried` in step with picks, shapes, matching and what is drawn.
+
+    Shapes with picks of their own keep those.
+    """
 
     def __init__(self, session: Session, results: Results) -> None:
         self._session, self._results = session, results
-        for signal in (session.picks_changed, session.active_changed, session.shapes_changed, session.matching_changed):
+        for signal in (session.picks_changed, session.active_changed, session.shapes_changed):
+            signal.connect(self._carry)
+        for signal in (session.matching_changed, session.field_changed):
             signal.connect(self._carry)
         results.maps_changed.connect(self._carry)
 
@@ -31,17 +37,26 @@ class CarryingController:
 
 
 def carried_picks(state: SessionState, maps: dict[tuple[str, str], IntArray]) -> dict[str, tuple[Pick, ...]]:
-    """By shape, where the active shape's picks lie on it, in the same colours; nothing where no map is known."""
+    """By shape, where the active shape's picks lie on it, in the same colours; nothing where no map is known.
+
+    maps : of the chosen matching. It serves while its own colours or errors are drawn; under any other field it would
+    move picks without being in sight, so there it only serves where the true correspondence is unknown.
+    """
     source, found = state.active, {}
     if source is None or not state.active_picks:
         return {}
     for target in state.shapes:
         if target is source or state.picks_on(target.key):
             continue
-        match = true_match(source, target) if state.matching.method == "true" else maps.get((source.key, target.key))
+        match = None if _shows_matching(state) else true_match(source, target)
+        match = maps.get((source.key, target.key)) if match is None else match
         if match is not None:
             found[target.key] = tuple(_carried(pick, source, target, match) for pick in state.active_picks)
     return found
+
+
+def _shows_matching(state: SessionState) -> bool:
+    return state.matching.method != "true" and any(choice.kind in MATCHED for choice in state.choices)
 
 
 @lru_cache(maxsize=32)

@@ -26,6 +26,8 @@ FieldKind = Literal[
     "error",
 ]
 FIELD_KINDS: tuple[FieldKind, ...] = get_args(FieldKind)
+MATCHED: frozenset[FieldKind] = frozenset({"transfer", "error"})
+"""Kinds that show what the chosen matching does."""
 DECADES = 2.0
 """How far below its maximum a logarithmic scale of a kernel begins."""
 

@@ -12,7 +12,7 @@ from add_core.geometry import TriangleMesh
 
 from ..models.commands import Command
 from ..models.field_catalogue import entry_of
-from ..models.fields import FieldChoice
+from ..models.fields import MATCHED, FieldChoice
 from ..models.insights import Insights
 from ..models.picks import Pick
 from ..models.session import SessionState
@@ -29,8 +29,6 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from .main_window import MainWindow
-
-_TRANSFERS = frozenset({"transfer", "error"})
 
 
 class ExploringViews:
@@ -82,7 +80,7 @@ class ExploringViews:
         state = self._session.state
         kinds = {choice.kind for choice in state.choices}
         self.symmetry.setVisible(self.explores_symmetry(state))
-        self.matching.setVisible(bool(kinds & _TRANSFERS))
+        self.matching.setVisible(bool(kinds & MATCHED))
         self.best.show_if("distance" in kinds and not self.explores_symmetry(state))
         entries = self.chooser.entries
         controls = frozenset().union(*(entry_of(entries, choice).controls for choice in state.choices))

@@ -140,6 +140,7 @@ class MainWindow(QMainWindow):
         bar.addPermanentWidget(self.cancel)
 
     def _connect(self) -> None:
+        self.open_requested.connect(self.message.begin)
         self.session.active_changed.connect(self._show_active)
         self.session.history_changed.connect(self._show_history)
         self.results.busy_changed.connect(self._show_busy)
@@ -176,7 +177,6 @@ class MainWindow(QMainWindow):
         self.menus.show_hidden(False)
         self.pages.setCurrentWidget(self.start if shape is None else self.scene)
         self.setWindowTitle(TITLE if shape is None else f"{shape.name} — {TITLE}")
-        self.message.hide()
         self.parameters.play.setChecked(False)
         for name in (*NEED_A_SHAPE, "go_to", "fit", "play", "front", "back", "left", "right", "top"):
             self.menus.actions[name].setEnabled(shape is not None)
@@ -284,7 +284,9 @@ class MainWindow(QMainWindow):
 
     def _close_shape(self) -> None:
         if self.session.state.active_key is not None:
+            self.message.begin()
             self.session.close_shape(self.session.state.active_key)
+            self.message.succeed()
 
     def _show_context_menu(self, place: QPoint, key: str, vertex: int) -> None:
         self.context_menu(key, vertex).popup(place)

@@ -24,7 +24,7 @@ class PickList(QWidget):
         super().__init__(parent)
         self._session, self._theme = session, LIGHT
         self.field = NumberField(show_as=lambda value: f"{value:.0f}", step=lambda value, step: value + step)
-        self.clear_button = QToolButton()
+        self.clear_button, self.problem = QToolButton(), QLabel()
         self.chips: list[QToolButton] = []
         self._chip_grid = QGridLayout()
         self._build()
@@ -54,17 +54,31 @@ class PickList(QWidget):
         column.setContentsMargins(0, 0, 0, 0)
         column.setSpacing(GRID)
         column.addLayout(top)
+        self.problem.setWordWrap(True)
+        self.problem.setProperty("role", "muted")
+        column.addWidget(self.problem)
         self._chip_grid.setSpacing(GRID // 2)
         self._chip_grid.setColumnStretch(_COLUMNS, 1)
         column.addLayout(self._chip_grid)
 
     def _typed(self, value: float) -> None:
-        state = self._session.state
-        if state.active is not None:
-            self._session.pick(min(max(round(value), 0), state.active.vertex_count - 1))
+        shape = self._session.state.active
+        if shape is None:
+            return
+        fits = -0.5 <= value <= shape.vertex_count - 0.5  # False for what is not a number, too
+        if fits:
+            self._session.pick(min(round(value), shape.vertex_count - 1))
         self._show_picks()
+        if not fits:
+            last = shape.vertex_count - 1
+            self._tell(f"There is no vertex {value:.15g}: those of {shape.name} are numbered 0 to {last}.")
+
+    def _tell(self, problem: str) -> None:
+        self.problem.setText(problem)
+        self.problem.setVisible(bool(problem))
 
     def _show_picks(self) -> None:
+        self._tell("")
         picks = self._session.state.active_picks
         self.field.show_value(picks[-1].vertex if picks else None)
         self.clear_button.setEnabled(bool(picks))

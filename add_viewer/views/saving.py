@@ -82,6 +82,7 @@ class Saving:
 
     def write(self, path: Path, write) -> None:  # type: ignore[no-untyped-def]
         """Let `write` fill the file at `path`, whole or not at all, and say what happened."""
+        self._window.message.begin()
         try:
             self.write_whole(path, write)
         except OSError as error:
@@ -91,6 +92,7 @@ class Saving:
 
     def tell_saved(self, path: Path) -> None:
         """Say where it is, and begin there next time."""
+        self._window.message.succeed()
         self._window.settings.folder = str(path.parent)
         self._window.statusBar().showMessage(f"Saved {path}", 6000)
 

@@ -91,11 +91,13 @@ class SessionFiles:
 
     def save_as(self, path: Path) -> None:
         """Save to `path` and say so."""
+        self._window.message.begin()
         try:
             self._keeping.save(path)
         except OSError as error:
             self._window.results.noticed.emit(Notice(f"{path.name} was not saved: {self._explain(error)}"))
             return
+        self._window.message.succeed()
         self._window.settings.folder = str(path.parent)
         self._window.statusBar().showMessage(f"Saved {path}", 6000)
 
@@ -105,6 +107,7 @@ class SessionFiles:
         chosen = QFileDialog.getOpenFileName(self._window, "Open session", folder, SESSION_FILTER)[0]
         if chosen:
             self._window.settings.folder = str(Path(chosen).parent)
+            self._window.message.begin()
             self._keeping.open(Path(chosen))
 
     # -- what no model holds ------------------------------------------------------------------------------------------

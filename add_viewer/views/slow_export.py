@@ -62,6 +62,7 @@ class SlowExport:
 
     def _begin(self, path: Path) -> None:
         self._path = path
+        self._window.message.begin()
         self._window.menus.actions[self._action].setEnabled(False)
         self.bar.cancel.setEnabled(True)
         self.bar.show()

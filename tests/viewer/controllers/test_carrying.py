@@ -41,10 +41,27 @@ def test_shapes_of_other_faces_correspond_by_the_map_that_was_found_or_not_at_al
     session.show_shape("torus")
     session.pick(7)
     assert set(results.carried) == {"second"}
+    session.choose_field(kind="transfer")
     session.match(method="zoomout")
     assert results.carried == {}
     results.set_map("torus", "third", (np.arange(torus.vertex_count) + 1) % torus.vertex_count)
     assert carried(results) == {"third": [(6, 0)]}
+
+
+def test_a_matching_moves_picks_only_while_it_is_in_sight_and_where_no_truth_is_known(parts, torus):
+    session, results, _ = parts
+    mesh, turned = torus.shape, (np.arange(torus.vertex_count) + 1) % torus.vertex_count
+    session.add_shape(replace(torus, key="third", shape=TriangleMesh(mesh.vertices, mesh.faces[::-1])))
+    session.show_shape("torus")
+    session.pick(7)
+    session.match(method="nearest")
+    for target in ("second", "third"):
+        results.set_map("torus", target, turned)
+    assert carried(results) == {"second": [(7, 0)], "third": [(6, 0)]}
+    session.choose_field(kind="error")
+    assert carried(results) == {"second": [(6, 0)], "third": [(6, 0)]}
+    session.choose_field(kind="heat")
+    assert carried(results) == {"second": [(7, 0)], "third": [(6, 0)]}
 
 
 def test_a_vertex_that_nothing_matches_goes_where_its_nearest_neighbour_goes():

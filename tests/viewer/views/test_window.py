@@ -138,8 +138,15 @@ def test_a_vertex_number_can_be_typed(person, qtbot):
     qtbot.keyClicks(field, "1234")
     qtbot.keyClick(field, Qt.Key.Key_Return)
     assert vertices(person) == [1234]
-    person.type_into(field, "99999999")
-    assert vertices(person) == [6889]
+    problem = person.window.parameters.picks.problem
+    for typed in ("6890", "-1", "nan", "inf"):
+        person.type_into(field, typed)
+        assert (vertices(person), field.text()) == ([1234], "1234")
+        assert f"no vertex {typed}" in problem.text()
+        assert "0 to 6889" in problem.text()
+        assert problem.isVisible()
+    person.type_into(field, "6889")
+    assert (vertices(person), problem.isVisible()) == ([6889], False)
 
 
 def test_the_dial_follows_the_mouse_and_snaps_with_control(person, qtbot):
@@ -236,6 +243,35 @@ def test_files_are_opened_where_they_are_dropped(person, qtbot, tmp_path):
     qtbot.waitUntil(lambda: person.session.state.active is not None, timeout=10000)
     assert person.session.state.active.name == "ring"
     assert person.window.settings.recent == [str(path.resolve())]
+
+
+def test_what_went_wrong_is_listed_and_stays_until_something_begun_later_succeeds(person, qtbot, tmp_path):
+    for name in ("broken", "worse"):
+        (tmp_path / f"{name}.off").write_text("OFF\nnonsense")
+    window, text = person.window, person.window.message.text
+    for reference in (tmp_path / "broken.off", "humans/0", tmp_path / "worse.off"):  # as if dropped together
+        window.open_requested.emit(str(reference))
+    qtbot.waitUntil(lambda: "worse.off" in text.text(), timeout=20000)
+    assert person.session.state.active_key == "humans/0"
+    assert window.message.isVisible()
+    first, second = text.text().split("\n")
+    assert ("broken.off" in first, "worse.off" in second) == (True, True)
+    window.open_requested.emit(str(tmp_path / "worse.off"))
+    qtbot.waitUntil(lambda: not person.results.busy)
+    assert text.text().count("worse.off") == 1
+    window.open_requested.emit("humans/1")
+    qtbot.waitUntil(lambda: person.session.state.active_key == "humans/1", timeout=20000)
+    assert not window.message.isVisible()
+
+
+def test_a_training_that_begins_clears_what_went_wrong_before(person, monkeypatch):
+    person.results.report("an earlier failure")
+    monkeypatch.setattr(person.assembly.training, "start", lambda request: None)
+    person.assembly._train(None)
+    assert person.window.message.isVisible()
+    monkeypatch.setattr(person.assembly.training, "start", lambda request: "id")
+    person.assembly._train(None)
+    assert not person.window.message.isVisible()
 
 
 def test_pictures_have_the_size_and_background_that_was_asked_for(person, tmp_path):
