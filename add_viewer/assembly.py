@@ -228,6 +228,7 @@ class Assembly:
 
     def _opened(self, shape: OpenShape) -> None:
         self.window.message.succeed()
+        self.window.show_shapes()
         self.window.remember(shape.reference)
         if self._picks and len(self.session.state.shapes) >= len(set(self._files)):
             self.session.show_shape(self.session.state.shapes[0].key)  # picks are meant on the first

@@ -97,10 +97,16 @@ class Session:
     # -- what a person does -------------------------------------------------------------------------------------------
 
     def add_shape(self, shape: OpenShape) -> None:
-        """Open `shape` and show it; a shape with the same key is replaced, and its picks stay where they still fit."""
+        """Open `shape`; a shape with the same key is replaced, and its picks stay where they still fit.
+
+        It becomes the active one, unless it comes to stand beside one with picks: their curves stay in sight, and
+        the picks are carried to it.
+        """
+        joins = self.state.active_picks and self.state.arrangement.layout != "single" and not self.state.shape(shape.key)
+        active_key = self.state.active_key if joins else shape.key
         others = tuple(each for each in self.state.shapes if each.key != shape.key)
         picks = tuple(p for p in self.state.picks if p.shape != shape.key or p.vertex < shape.vertex_count)
-        self._apply("open", replace(self.state, shapes=(*others, shape), active_key=shape.key, picks=picks))
+        self._apply("open", replace(self.state, shapes=(*others, shape), active_key=active_key, picks=picks))
 
     def close_shape(self, key: str) -> None:
         """Close one shape; the last of those that stay open is shown."""

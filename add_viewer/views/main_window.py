@@ -150,7 +150,7 @@ class MainWindow(QMainWindow):
         self.scene.hovered.connect(self.hover_label.setText)
         self.scene.menu_requested.connect(self._show_context_menu)
         self.start.chosen.connect(self._open_chosen)
-        self.start.left.connect(self._show_active)
+        self.start.left.connect(self.show_shapes)
         looks = ("front", "back", "left", "right", "top")
         for name in looks:
             self.menus.on(name, partial(self.scene.look, name))
@@ -182,6 +182,10 @@ class MainWindow(QMainWindow):
             self.menus.actions[name].setEnabled(shape is not None)
         self.hover_label.setText("" if shape is None else IDLE_TEXT)
         self.panels.show(shape is not None and self.pages.currentWidget() is self.scene)
+
+    def show_shapes(self) -> None:
+        """Back from the start page to what is open."""
+        self._show_active()
 
     def show_start(self) -> None:
         """Offer shapes to open; the session stays as it is, and nothing is done to it unseen."""
@@ -273,7 +277,7 @@ class MainWindow(QMainWindow):
     def _open_chosen(self, reference: str) -> None:
         shape = self.session.state.active
         if shape is not None and shape.key == reference:
-            self._show_active()  # it is open already
+            self.show_shapes()  # it is open already
         else:
             self.open_requested.emit(reference)
 

@@ -134,9 +134,27 @@ def test_a_click_on_another_shape_makes_it_the_source_in_one_step(session, make_
     assert session.state == before
 
 
+def test_a_shape_that_joins_one_with_picks_leaves_it_active_and_one_that_stands_alone_is_shown(session, make_torus):
+    session.add_shape(make_torus("second"))
+    assert session.state.active_key == "second"  # nothing was picked yet
+    session.pick(3)
+    before = session.state
+    session.add_shape(make_torus("third"))
+    assert (session.state.active_key, vertices(session)) == ("second", [3])
+    session.undo()
+    assert session.state is before
+    session.add_shape(make_torus("torus"))  # opened again: that is the one to look at
+    assert session.state.active_key == "torus"
+    session.undo()
+    session.arrange(layout="single")
+    session.add_shape(make_torus("third"))  # the only one in sight
+    assert session.state.active_key == "third"
+
+
 def test_added_picks_lie_on_several_shapes_and_go_with_theirs(session, make_torus):
     session.pick(3)
     session.add_shape(make_torus("second"))
+    session.show_shape("second")
     assert vertices(session) == []
     session.pick(4, add=True)
     session.show_shape("torus")

@@ -264,6 +264,19 @@ def test_what_went_wrong_is_listed_and_stays_until_something_begun_later_succeed
     assert not window.message.isVisible()
 
 
+def test_a_second_shape_takes_the_pick_and_leaves_its_curves_in_sight(person, qtbot):
+    person.open()
+    person.click(THIGH)
+    qtbot.waitUntil(lambda: bool(person.results.curves), timeout=20000)
+    person.window.show_start()
+    person.window.start.chosen.emit("humans/1")
+    qtbot.waitUntil(lambda: len(person.session.state.shapes) == 2, timeout=20000)
+    assert person.window.pages.currentWidget() is person.window.scene
+    assert person.window.parameters.picks.field.text() == str(THIGH)
+    assert [curves.pick.vertex for curves in person.results.curves] == [THIGH]
+    assert person.results.carried["humans/1"][0].vertex == THIGH
+
+
 def test_a_training_that_begins_clears_what_went_wrong_before(person, monkeypatch):
     person.results.report("an earlier failure")
     monkeypatch.setattr(person.assembly.training, "start", lambda request: None)
