@@ -138,7 +138,9 @@ class Answers:
 
 
 def _capital(title: str) -> str:
-    return title[:1].upper() + title[1:]
+    """The title with a capital, unless its first word is a name with capitals of its own: mADD3."""
+    first = title.partition(" ")[0]
+    return title[:1].upper() + title[1:] if first == first.lower() else title
 
 
 def _size(answer: Any) -> int:

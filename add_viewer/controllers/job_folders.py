@@ -5,7 +5,9 @@ from __future__ import annotations
 import json
 import logging
 import shutil
+from collections.abc import Callable
 from dataclasses import dataclass
+from itertools import zip_longest
 from pathlib import Path
 from typing import Any
 
@@ -15,6 +17,7 @@ from .exporting import write_atomically
 
 FORMAT = 1
 JOB_FILE, OUTPUT, LOG = "job.json", "output.jsonl", "log.txt"
+STARTED = "Started on "
 LOG_BYTES = 1 << 16
 
 _log = logging.getLogger(__name__)
@@ -103,14 +106,27 @@ def forget(folder: Path) -> None:
 
 
 def log_of(folder: Path) -> str:
-    """What the job's command said, as a person reads it: its end, if it is long."""
-    lines = []
-    for name in (OUTPUT, LOG):
-        for line in _last_lines(folder / name):
-            text = _readable(line)
-            if text:
-                lines.append(text)
-    return "\n".join(lines)
+    """What the job's command said, as a person reads it: its end, if it is long.
+
+    Run by run: when it started, its results, then what it complained about.
+    """
+    outputs = _runs(_last_lines(folder / OUTPUT), lambda line: not line)
+    logs = _runs(_last_lines(folder / LOG), lambda line: line.startswith(STARTED))
+    lines: list[str] = []
+    for output, log in reversed([*zip_longest(reversed(outputs), reversed(logs), fillvalue=[])]):
+        head = 1 if log and log[0].startswith(STARTED) else 0
+        lines += [*log[:head], *output, *log[head:]]
+    return "\n".join(text for line in lines if (text := _readable(line)))
+
+
+def _runs(lines: list[str], begins: Callable[[str], bool]) -> list[list[str]]:
+    """The lines of each run of a command that was paused and went on."""
+    runs: list[list[str]] = []
+    for line in lines:
+        if begins(line) or not runs:
+            runs.append([])
+        runs[-1].append(line)
+    return runs
 
 
 def _last_lines(path: Path) -> list[str]:

@@ -283,4 +283,4 @@ def _has_failed(status: int | None, words: str) -> bool:
 
 
 def _interruption(job: Job) -> str:
-    return "Interrupted; it can go on where it was" if job.request.resumable else "Interrupted before it was done"
+    return "It can go on where it was" if job.request.resumable else "It ended before it was done"

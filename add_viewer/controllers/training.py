@@ -54,7 +54,14 @@ class TrainingController:
         folder = self._jobs.new_folder(KIND)
         id = folder.name
         self._curves[id] = TrainingCurves()
-        return self._jobs.start(JobRequest(KIND, request.title, request.arguments(folder), folder, resumable=True))
+        title = self._own_title(request.title)
+        return self._jobs.start(JobRequest(KIND, title, request.arguments(folder), folder, resumable=True))
+
+    def _own_title(self, title: str) -> str:
+        """`title`, with a number if another training has it."""
+        taken = {job.request.title for job in self.runs}
+        numbered = (f"{title}, no. {number}" for number in range(2, len(taken) + 3))
+        return title if title not in taken else next(each for each in numbered if each not in taken)
 
     def curves(self, id: str) -> TrainingCurves:
         """The curves so far; those of an earlier window come in a moment."""

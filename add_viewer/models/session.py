@@ -102,7 +102,8 @@ class Session:
         It becomes the active one, unless it comes to stand beside one with picks: their curves stay in sight, and
         the picks are carried to it.
         """
-        joins = self.state.active_picks and self.state.arrangement.layout != "single" and not self.state.shape(shape.key)
+        stands_beside = self.state.arrangement.layout != "single" and self.state.shape(shape.key) is None
+        joins = stands_beside and bool(self.state.active_picks)
         active_key = self.state.active_key if joins else shape.key
         others = tuple(each for each in self.state.shapes if each.key != shape.key)
         picks = tuple(p for p in self.state.picks if p.shape != shape.key or p.vertex < shape.vertex_count)

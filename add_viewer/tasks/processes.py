@@ -22,7 +22,7 @@ from .identity import ProcessIdentity
 from .tail import Tail, event_of
 
 OUTPUT, LOG = "output.jsonl", "log.txt"
-"""What a command said on stdout and on stderr."""
+"""What a command said on stdout and on stderr. Each run begins with an empty line in the one, a date in the other."""
 
 POLL = 150
 """Milliseconds between two looks at a running process."""
@@ -81,6 +81,8 @@ class CommandProcess:
             made = cls(ProcessIdentity(0, ""), folder, said, ended)
             log.write(f"Started on {time.strftime('%d %B %Y, %H:%M:%S')}\n".encode())
             log.flush()
+            output.write(b"\n")
+            output.flush()
             made._own = subprocess.Popen(
                 [sys.executable, "-P", "-c", _START, *arguments, "--json"],
                 stdin=subprocess.DEVNULL,

@@ -43,7 +43,7 @@ class ExploringViews:
         self.matching = MatchingPanel(self._session, insights)
         self.quality = QualityPlot(self._session, insights)
         self.section = QWidget()
-        self._had_curves = False
+        self._had_curves = self._was_matched = False
         self._lay_out()
         self.quality_dock = window.panels.add_beside(window.curve_dock, "Quality of the matching", self.quality)
         self._connect()
@@ -81,10 +81,20 @@ class ExploringViews:
         kinds = {choice.kind for choice in state.choices}
         self.symmetry.setVisible(self.explores_symmetry(state))
         self.matching.setVisible(bool(kinds & MATCHED))
+        self._bring_forward(bool(kinds & MATCHED))
         self.best.show_if("distance" in kinds and not self.explores_symmetry(state))
         entries = self.chooser.entries
         controls = frozenset().union(*(entry_of(entries, choice).controls for choice in state.choices))
         self._window.parameters.show_relevance(controls)
+
+    def _bring_forward(self, matched: bool) -> None:
+        """The quality is in front while a matching is shown, otherwise the curves; a third panel stays in front."""
+        if matched != self._was_matched:
+            self._was_matched = matched
+            docks = (self._window.curve_dock, self.quality_dock)
+            before, after = docks if matched else docks[::-1]
+            if not after.isHidden() and not before.visibleRegion().isEmpty():
+                after.raise_()
 
     def _show_quality(self) -> None:
         """Bring the plot to the front when the first curves of a transfer are there."""

@@ -75,6 +75,7 @@ class TrainingPanel(QWidget):
         super().__init__(parent)
         self._jobs, self._trainings, self._theme = jobs, trainings, LIGHT
         self.request = TrainingRequest()
+        self._chosen: str | None = None
         self.form: TrainingForm | None = None
         self.new_button, self.first_button = QPushButton("New training…"), QPushButton("New training…")
         self.list, self.plots = QListWidget(), TrainingPlots()
@@ -160,7 +161,7 @@ class TrainingPanel(QWidget):
         self._jobs.changed.connect(lambda id: self._show_soon())
         self._trainings.curves_changed.connect(lambda id: self._show_soon())
         self._trainings.models_changed.connect(lambda path: self._show_soon())
-        self.list.currentItemChanged.connect(lambda *_: self._show_run())
+        self.list.currentItemChanged.connect(self._choose)
         self.use_button.clicked.connect(self._use)
         self.delete_button.clicked.connect(self._confirm_deletion)
 
@@ -178,6 +179,10 @@ class TrainingPanel(QWidget):
         for number in range(self.list.count()):
             if self.list.item(number).data(Qt.ItemDataRole.UserRole) == id:
                 self.list.setCurrentRow(number)
+
+    def _choose(self) -> None:
+        self._chosen = self.selected
+        self._show_run()
 
     def open_form(self) -> None:
         """Ask what to train, beginning with what was trained last."""
@@ -223,7 +228,8 @@ class TrainingPanel(QWidget):
             self._frame.start()
 
     def _show_runs(self) -> None:
-        runs, selected = self._trainings.runs, self.selected
+        runs = self._trainings.runs
+        wanted = self._wanted(runs)
         listed = [self.list.item(number).data(Qt.ItemDataRole.UserRole) for number in range(self.list.count())]
         if listed != [job.id for job in runs]:
             with QSignalBlocker(self.list):
@@ -232,13 +238,19 @@ class TrainingPanel(QWidget):
                     item = QListWidgetItem()
                     item.setData(Qt.ItemDataRole.UserRole, job.id)
                     self.list.addItem(item)
-                ids = [job.id for job in runs]
-                self.list.setCurrentRow(ids.index(selected) if selected in ids else 0)
+        with QSignalBlocker(self.list):
+            self.list.setCurrentRow(wanted)
         for number, job in enumerate(runs):
             self.list.item(number).setText(f"{job.request.title}\n{_short(job)}")
             self.list.item(number).setToolTip(f"{job.request.title}, {moment_of(job)}")
         self._stack.setCurrentIndex(1 if runs else 0)
         self._show_run()
+
+    def _wanted(self, runs: tuple[Job, ...]) -> int:
+        """The row of the training that the person chose; of one that runs; of the one that was shown; the newest."""
+        ids = [job.id for job in runs]
+        running = [job.id for job in runs if job.state == "running"]
+        return next((ids.index(id) for id in (self._chosen, *running, self.selected) if id in ids), 0)
 
     def _show_run(self) -> None:
         id = self.selected

@@ -22,12 +22,13 @@ class Ones:
     """Answered by 8,000 bytes."""
 
     name: str
+    what: str = "ones"
     kind = "describe"
     file_name = "ones.npy"
 
     @property
     def title(self):
-        return f"ones for {self.name}"
+        return f"{self.what} for {self.name}"
 
     def arguments(self, output: Path):
         return ("ones", str(output))
@@ -51,6 +52,14 @@ def end(jobs, run, state="done"):
     (id,) = [job.id for job in jobs.all if not job.is_finished]
     jobs.put(replace(jobs[id], state=state, message="it broke"))
     run.answer_all()
+
+
+def test_a_job_is_called_by_its_question_with_a_capital_unless_a_name_begins_it(world):
+    jobs, answers, _ = world
+    answers.want(Ones("a"))
+    answers.want(Ones("a", "mADD3"))
+    assert [job.request.title for job in jobs.all] == ["Ones for a", "mADD3 for a"]
+    assert answers.message(Ones("a", "mADD3")) == "Computing mADD3 for a …"
 
 
 def test_a_question_is_asked_once_and_then_answered_from_memory(world, run):

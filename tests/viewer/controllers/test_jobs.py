@@ -209,7 +209,7 @@ def test_a_killed_training_is_interrupted_and_goes_on_with_the_same_command(worl
     id = world.start()
     world.say(id, step(3))
     world.process(id).ended(-9, "")
-    assert world.jobs[id].state == "interrupted"
+    assert (world.jobs[id].state, world.jobs[id].message) == ("interrupted", "It can go on where it was")
     assert world.finished == []
     world.jobs.resume(id)
     assert (world.jobs[id].state, world.process(id).anew) == ("running", False)
@@ -333,4 +333,17 @@ def test_the_log_is_what_a_person_reads(world):
     assert world.controller.log(id).splitlines() == [
         "validation: step 1, auc 0.91, the best so far",
         "Operator 3 was solved by ARPACK.",
+    ]
+
+
+def test_the_log_of_a_command_that_was_paused_and_went_on_is_in_the_order_of_events(world):
+    id = world.start()
+    folder = world.jobs[id].request.folder
+    said = '{"event": "step", "step": 1}\n{"event": "validation", "step": %d}\n'
+    (folder / "output.jsonl").write_text(f"\n{said % 1}\n\n{said % 3}")  # the second run said nothing
+    (folder / "log.txt").write_text("Started on 1\nStopped 1\nStarted on 2\nKilled\nStarted on 3\n")
+    assert world.controller.log(id).splitlines() == [
+        *("Started on 1", "validation: step 1", "Stopped 1"),
+        *("Started on 2", "Killed"),
+        *("Started on 3", "validation: step 3"),
     ]

@@ -40,6 +40,13 @@ def test_a_request_becomes_a_job_that_can_go_on(world):
     assert world.asked == [("start", id)]
 
 
+def test_trainings_of_one_kind_are_told_apart(world):
+    requests = (TrainingRequest(), TrainingRequest(), TrainingRequest("ADD1"), TrainingRequest())
+    ids = [world.trainings.start(request) for request in requests]
+    titles = [world.jobs[id].request.title for id in ids]
+    assert titles == ["mADD3 on people", "mADD3 on people, no. 2", "ADD1 on people", "mADD3 on people, no. 3"]
+
+
 @pytest.mark.parametrize("data", ["", "/no/such/folder"])
 def test_a_folder_that_is_not_there_is_a_message_and_no_job(world, data):
     assert world.trainings.start(TrainingRequest(data=data)) is None

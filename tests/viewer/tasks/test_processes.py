@@ -10,6 +10,7 @@ import time
 import pytest
 from PySide6.QtCore import QCoreApplication
 
+from add_viewer.controllers.job_folders import log_of
 from add_viewer.tasks.identity import ProcessIdentity, beginning
 from add_viewer.tasks.processes import ProcessRunner
 from add_viewer.tasks.tail import MOST_AT_ONCE, Tail
@@ -60,6 +61,8 @@ def test_a_command_says_its_progress_and_its_result(runner, ears, tmp_path):
     assert (status, words[:11]) == (0, "Started on ")
     assert {event["event"] for event in ears.events} == {"progress", "result"}
     assert all(ears.news)
+    assert log_of(tmp_path / "job").startswith("Started on ")
+    assert (tmp_path / "job" / "output.jsonl").read_text()[:2] == "\n{"  # where one run ends and the next begins
 
 
 def test_a_mistake_ends_with_a_status_and_one_line(runner, ears, tmp_path):

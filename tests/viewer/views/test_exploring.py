@@ -89,6 +89,11 @@ def click(person, qtbot, name, vertex, modifier=NONE):
     qtbot.mouseClick(canvas, LEFT, modifier, canvas.place_of(vertex).toPoint())
 
 
+def in_front(dock):
+    """Whether a panel that shares its place is the one to be seen."""
+    return not dock.visibleRegion().isEmpty()
+
+
 def field(person, name, panel=0):
     return person.results.fields.get((panel, key_of(person, name)))
 
@@ -290,6 +295,10 @@ def test_colours_land_on_the_target_raw_and_refined_with_errors_and_a_curve(eggs
     assert exploring.quality_dock.isVisible()
     qtbot.waitUntil(lambda: len(exploring.quality.figure.axes) == 1, timeout=5000)
     assert len(exploring.quality.figure.axes[0].lines) == 2
+    qtbot.waitUntil(lambda: in_front(exploring.quality_dock), timeout=5000)
+    choose(eggs, qtbot, "heat kernel")
+    assert in_front(eggs.window.curve_dock)
     choose(eggs, qtbot, "error of")
+    assert in_front(exploring.quality_dock)
     qtbot.waitUntil(lambda: shows(eggs, "bent", "error"), timeout=PATIENCE)
     assert np.nanmax(field(eggs, "bent").values) > 0

@@ -8,10 +8,13 @@ from PySide6.QtCore import QPoint, Qt
 from PySide6.QtGui import QImage
 
 from add_core.drawing.colours import MARKERS
+from add_viewer.controllers.training import TrainingController
+from add_viewer.models.jobs import Job, JobRequest, Jobs
 from add_viewer.models.training import EFFORTS, LOSSES, TrainingRequest
 from add_viewer.models.training_curves import TrainingCurves
 from add_viewer.views.plot import round_ticks
 from add_viewer.views.training_form import TrainingForm
+from add_viewer.views.training_panel import TrainingPanel
 from add_viewer.views.training_plots import TrainingPlots
 
 
@@ -96,6 +99,35 @@ def test_enter_in_a_field_enters_the_number_and_starts_nothing(form, qtbot):
     with qtbot.assertNotEmitted(form.submitted):
         type_into(qtbot, form.numbers["seed"], "7")
     assert (form.request.seed, form.isVisible()) == (7, True)
+
+
+# -- the list of trainings ---------------------------------------------------------------------------------------------
+
+
+@pytest.fixture
+def panel(screen, qtbot, tmp_path):
+    jobs = Jobs(tmp_path)
+    made = TrainingPanel(jobs, TrainingController(jobs, list, list))
+    for number, state in enumerate(("interrupted", "running", "interrupted")):
+        id = f"2026112{number}-100000-train"
+        request = JobRequest("train", f"training {number}", (), tmp_path / id, resumable=True)
+        jobs.put(Job(id, request, state=state, done=34, total=100, message="It can go on"))
+    qtbot.addWidget(made)
+    made.show()
+    qtbot.waitUntil(lambda: made.title.text() != "")
+    return made
+
+
+def test_the_training_that_runs_is_shown_first_and_the_chosen_one_stays(panel):
+    assert panel.title.text() == "training 1"
+    panel.list.setCurrentRow(2)
+    panel._show_runs()
+    assert panel.title.text() == "training 0"
+
+
+def test_why_a_training_stopped_is_said_once(panel):
+    panel.list.setCurrentRow(0)
+    assert panel.state.text() == "Interrupted at 34 % · It can go on"
 
 
 # -- curves -----------------------------------------------------------------------------------------------------------
