@@ -113,7 +113,8 @@ def log_of(folder: Path) -> str:
     outputs = _runs(_last_lines(folder / OUTPUT), lambda line: not line)
     logs = _runs(_last_lines(folder / LOG), lambda line: line.startswith(STARTED))
     lines: list[str] = []
-    for output, log in reversed([*zip_longest(reversed(outputs), reversed(logs), fillvalue=[])]):
+    silent: list[str] = []
+    for output, log in reversed([*zip_longest(reversed(outputs), reversed(logs), fillvalue=silent)]):
         head = 1 if log and log[0].startswith(STARTED) else 0
         lines += [*log[:head], *output, *log[head:]]
     return "\n".join(text for line in lines if (text := _readable(line)))
