@@ -16,6 +16,8 @@ from .inputs import Inputs, Moments
 from .losses import multinomial_loss, soft_nearest_loss, squared_distances
 from .training_set import PreparedShape
 
+FEWEST = 12
+"""Places that two shapes must share for their scores to mean anything."""
 POINTS = 1000
 """Points of a shape that are compared. CMC is among so many candidates, not among all vertices."""
 
@@ -112,9 +114,12 @@ def _shared(one: PreparedShape, two: PreparedShape, symmetry: IntArray | None, d
     size = min(len(one.vertex_at), len(two.vertex_at))
     is_common = (one.vertex_at[:size] >= 0) & (two.vertex_at[:size] >= 0)
     common = np.flatnonzero(is_common)
-    if len(common) < 12:
+    if len(common) < FEWEST:
+        other = "another state of it" if one.name == two.name else repr(two.name)
         raise ParameterError(
-            f"validation shapes must share at least 12 places, but {one.name!r} and {two.name!r} share {len(common)}."
+            f"validation shapes must share at least {FEWEST} places, but {one.name!r} and {other} share {len(common)}. "
+            "Take shapes of more vertices or with more of their correspondence known: by equal faces, or by .vts or "
+            ".map files beside them."
         )
     chosen = draw.permutation(common)[: POINTS if symmetry is None else POINTS // 2]
     if symmetry is not None:

@@ -10,7 +10,7 @@ from psygnal import Signal
 
 from ..models.job_words import moment_of
 from ..models.jobs import Job, JobRequest, Jobs
-from ..models.training import MODEL_FILE, TrainingRequest
+from ..models.training import MODEL_FILE, TrainingRequest, problem_of_data
 from ..models.training_curves import TrainingCurves
 
 KIND = "train"
@@ -46,10 +46,9 @@ class TrainingController:
                 "Training needs torch and safetensors, which are not installed. Run: pip install torch safetensors"
             )
             return None
-        if not request.data or (Path(request.data).is_absolute() and not Path(request.data).is_dir()):
-            self._report(
-                f"There is no folder {request.data!r} to train on. Choose one that holds at least four shapes."
-            )
+        problem = problem_of_data(request.data)
+        if problem:
+            self._report(problem)
             return None
         folder = self._jobs.new_folder(KIND)
         id = folder.name

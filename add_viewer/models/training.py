@@ -5,6 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+from add_core.errors import AddError
+from add_core.io import open_collection
+
+FEWEST = 4
+"""Shapes that a training needs: some to learn from, some to validate on."""
+
 MODEL_FILE = Path("run") / "model.safetensors"
 """Where a training's best model so far is, in the folder of its job."""
 
@@ -141,3 +147,18 @@ class TrainingRequest:
         chosen |= {} if self.shapes is None else {"--shapes": self.shapes}
         words = [str(word) for pair in chosen.items() for word in pair]
         return ("train", *words, *(("--isotropic",) if self.isotropic else ()))
+
+
+def problem_of_data(data: str) -> str:
+    """Why `data`, the name of a shipped collection or a folder, cannot be trained on; "" if it can."""
+    if any(data == option.name for option in DATA if option.name):
+        return ""
+    folder = Path(data)
+    if not data or not folder.is_absolute() or not folder.is_dir():
+        return f"There is no folder {data!r} to train on. Choose one that holds at least four shapes."
+    try:
+        count = len(open_collection(folder))
+    except (AddError, OSError) as error:
+        return str(error)
+    few = f"{folder.name} holds {count} {'shape' if count == 1 else 'shapes'}, but a training needs at least {FEWEST}."
+    return few if count < FEWEST else ""

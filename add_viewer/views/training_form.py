@@ -21,7 +21,16 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from ..models.training import ARCHITECTURES, CLASSIFICATION, DATA, EFFORTS, LOSSES, Option, TrainingRequest
+from ..models.training import (
+    ARCHITECTURES,
+    CLASSIFICATION,
+    DATA,
+    EFFORTS,
+    LOSSES,
+    Option,
+    TrainingRequest,
+    problem_of_data,
+)
 from .number_field import NumberField
 from .theme import GRID
 
@@ -42,6 +51,7 @@ class TrainingForm(QDialog):
         super().__init__(parent)
         self.setWindowTitle("New training")
         self.request = request
+        self._budgets: dict[str, float] = {"minutes": 10.0}
         self.data, self.architecture, self.effort = QComboBox(), QComboBox(), QComboBox()
         self.loss, self.unit = QComboBox(), QComboBox()
         self.folder, self.browse = QLineEdit(), QPushButton("Browse…")
@@ -137,7 +147,7 @@ class TrainingForm(QDialog):
 
     def _connect(self) -> None:
         self.data.activated.connect(lambda: self._change(data=self.data.currentData().name))
-        self.folder.editingFinished.connect(lambda: self._change(data=self.folder.text().strip()))
+        self.folder.editingFinished.connect(self._type_folder)
         self.browse.clicked.connect(self._ask_folder)
         self.architecture.activated.connect(lambda: self._change(architecture=self.architecture.currentData().name))
         self.isotropic.toggled.connect(lambda on: self._change(isotropic=on))
@@ -158,12 +168,17 @@ class TrainingForm(QDialog):
 
     def _choose_effort(self) -> None:
         self.request = self.request.with_effort(self.effort.currentData())
+        self._budgets.pop("steps", None)
         self._show_request()
 
     def _choose_unit(self) -> None:
-        is_steps = self.unit.currentText() == "steps"
-        effort = self.request.effort or EFFORTS[0]
-        self._change(steps=effort.steps if is_steps else None, minutes=None if is_steps else 10.0)
+        request, is_steps = self.request, self.unit.currentText() == "steps"
+        if request.steps is not None:
+            self._budgets["steps"] = request.steps
+        if request.minutes is not None:
+            self._budgets["minutes"] = request.minutes
+        steps = round(self._budgets.get("steps", (request.effort or EFFORTS[0]).steps))
+        self._change(steps=steps if is_steps else None, minutes=None if is_steps else self._budgets["minutes"])
 
     def _type_budget(self, value: float) -> None:
         least, most = LIMITS["budget"]
@@ -171,6 +186,10 @@ class TrainingForm(QDialog):
             self._change(minutes=min(max(value, 0.1), float(most)))
         else:
             self._change(steps=_within(value, least, most))
+
+    def _type_folder(self) -> None:
+        typed = self.folder.text().strip()
+        self._change(data=str(Path(typed).expanduser()) if typed else "")
 
     def _ask_folder(self) -> None:
         start = self.folder.text() or str(Path.home())
@@ -207,7 +226,18 @@ class TrainingForm(QDialog):
         for widget in self._folder_row:
             widget.setVisible(shipped == len(DATA) - 1)
         self._show_help(DATA[shipped])
-        self.start_button.setEnabled(bool(request.data))
+        problem = problem_of_data(request.data)
+        self.start_button.setEnabled(not problem)
+        self._show_problem(problem if request.data else "")
+
+    def _show_problem(self, problem: str) -> None:
+        """Say in the place of the folder's help why it cannot be trained on."""
+        label = self._help["folder"]
+        label.setProperty("role", "" if problem else "muted")
+        label.style().polish(label)
+        if problem:
+            label.setText(problem)
+            label.setFixedHeight(label.heightForWidth(_HELP_COLUMN))
 
     def _show_losses(self) -> None:
         options = [CLASSIFICATION] if self.request.is_classifier else list(LOSSES)

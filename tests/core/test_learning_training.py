@@ -126,6 +126,15 @@ def test_a_correspondence_network_is_judged_by_the_probability_of_the_true_verte
     assert scores.loss == pytest.approx(expected, rel=1e-5)
 
 
+def test_shapes_that_share_too_little_to_be_compared_are_named_with_what_to_do():
+    one = made_up(np.zeros((20, 1, 20), np.float32))
+    others = (replace(one.below(3), name="other"), one.below(11))
+    words = (f"{one.name!r} and 'other' share 3", f"{one.name!r} and another state of it share 11")
+    for other, pair in zip(others, words, strict=True):
+        with pytest.raises(ParameterError, match=rf"at least 12 places, but {pair}\. Take shapes of more vertices"):
+            Validator([one, other])
+
+
 def test_a_network_that_gives_descriptors_names_no_vertices(shapes, tmp_path):
     model = fit(SMALL, RECIPE, shapes[:2], tmp_path, settings=replace(QUICK, steps=2))
     with pytest.raises(ParameterError, match=r"must end in Softmax.*add-core match"):

@@ -8,6 +8,8 @@ from PySide6.QtCore import QPoint, Qt
 from PySide6.QtGui import QImage
 
 from add_core.drawing.colours import MARKERS
+from add_core.geometry.shapes import sphere
+from add_core.io import save_shape
 from add_viewer.controllers.training import TrainingController
 from add_viewer.models.jobs import Job, JobRequest, Jobs
 from add_viewer.models.training import EFFORTS, LOSSES, TrainingRequest
@@ -64,6 +66,15 @@ def test_the_budget_is_steps_or_minutes(form, qtbot):
     assert form.request.minutes == 2.5
     choose(qtbot, form.unit, 0)
     assert (form.request.steps, form.request.minutes) == (EFFORTS[0].steps, None)
+    type_into(qtbot, form.numbers["budget"], "80")
+    choose(qtbot, form.unit, 1)
+    assert form.request.minutes == 2.5
+    choose(qtbot, form.unit, 0)
+    assert form.request.steps == 80
+    choose(qtbot, form.unit, 1)
+    choose(qtbot, form.effort, 1)
+    choose(qtbot, form.unit, 0)
+    assert form.request.steps == EFFORTS[1].steps
 
 
 def test_a_classifier_has_its_own_loss_and_gives_the_chosen_one_back(form, qtbot):
@@ -75,13 +86,19 @@ def test_a_classifier_has_its_own_loss_and_gives_the_chosen_one_back(form, qtbot
     assert form.request.loss == "siamese"
 
 
-def test_a_folder_is_asked_for_where_one_is_wanted_and_nothing_starts_without(form, qtbot):
+def test_a_folder_is_asked_for_where_one_is_wanted_and_nothing_starts_without(form, qtbot, tmp_path):
     assert not form.folder.isVisible()
     choose(qtbot, form.data, 3)
     assert form.folder.isVisible()
     assert not form.start_button.isEnabled()
     type_into(qtbot, form.folder, "/my shapes")
-    assert form.request.data == "/my shapes"
+    assert "no folder '/my shapes'" in form._help["folder"].text()
+    for number in range(4):
+        assert not form.start_button.isEnabled()
+        save_shape(sphere(1), tmp_path / f"shape{number}.off")
+        type_into(qtbot, form.folder, str(tmp_path / "."))
+        assert (f"holds {number + 1} shape" in form._help["folder"].text()) == (number < 3)
+    assert form.request.data == str(tmp_path)
     with qtbot.waitSignal(form.submitted) as submitted:
         qtbot.mouseClick(form.start_button, Qt.MouseButton.LeftButton)
     assert submitted.args == [form.request]
