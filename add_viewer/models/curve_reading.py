@@ -3,8 +3,12 @@
 from __future__ import annotations
 
 import numpy as np
+from scipy.interpolate import CubicSpline
 
 from .results import AutodiffusionCurves, FloatArray
+
+_FINER = 8
+"""Points drawn for each computed angle."""
 
 
 def over_theta(curves: AutodiffusionCurves, reach: float) -> FloatArray:
@@ -38,5 +42,14 @@ def read_backwards(thetas: FloatArray, values: FloatArray) -> FloatArray:
 
 
 def once_around(curves: AutodiffusionCurves, values: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Angles from θ₀ to θ₀ + π and `values` (L,) over them, closed: the first value comes again at the end."""
-    return np.append(curves.thetas, curves.thetas[0] + np.pi), np.append(values, values[0])
+    """Angles from θ₀ to θ₀ + π, and `values` (L,) > 0 over them as a closed smooth curve, for drawing alone.
+
+    A periodic cubic spline of log values goes through every computed one and stays positive; what it adds between
+    them is a reading. With fewer than four angles it would invent waves: then both are (L + 1,), joined by lines.
+    """
+    thetas, closed = np.append(curves.thetas, curves.thetas[0] + np.pi), np.append(values, values[0])
+    if len(values) < 4:
+        return thetas, closed
+    steps = np.arange(_FINER * len(values) + 1) / _FINER
+    angles = np.interp(steps, np.arange(len(thetas)), thetas)
+    return angles, np.exp(CubicSpline(thetas, np.log(closed), bc_type="periodic")(angles))

@@ -204,8 +204,8 @@ def _factors(scene: CurveScene) -> tuple[float, ...]:
 
 def _shown_range(scene: CurveScene) -> tuple[float, float]:
     """Least and greatest of what is drawn, each curve divided by its mean."""
-    lines = [over_theta(each, scene.reach * factor) for each in scene.shown for factor in _factors(scene)]
-    shares = [line / line.mean() for line in lines]
+    lines = [(each, over_theta(each, scene.reach * factor)) for each in scene.shown for factor in _factors(scene)]
+    shares = [once_around(each, line / line.mean())[1] for each, line in lines]
     return (min(s.min() for s in shares), max(s.max() for s in shares)) if shares else (0.5, 1.5)
 
 

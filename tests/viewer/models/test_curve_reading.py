@@ -38,6 +38,26 @@ def test_between_the_last_angle_and_the_first_the_curve_is_closed(curves):
     assert values[-1] == values[0]
 
 
+def test_a_curve_over_theta_is_drawn_smooth_through_what_was_computed():
+    """Sixteen straight pieces would be off by 0.04, and have corners of 1.7."""
+
+    def curve(theta):
+        return 2 + np.sin(2 * theta) + 0.3 * np.cos(4 * theta + 1)
+
+    thetas = np.pi * np.arange(16) / 16
+    made = AutodiffusionCurves(Pick("a", 0, 0), thetas, np.ones(1), curve(thetas)[:, None], expected=16)
+    angles, values = once_around(made, curve(thetas))
+    assert values[:: len(angles) // 16] == pytest.approx(curve(np.append(thetas, np.pi)))
+    assert np.abs(values - curve(angles)).max() < 0.004
+    slopes = np.diff(values) / np.diff(angles)
+    assert np.abs(np.diff(slopes, append=slopes[0])).max() < 0.3, "no corner, where it closes neither"
+
+
+def test_while_few_angles_are_known_no_waves_are_invented(curves):
+    few = AutodiffusionCurves(curves.pick, curves.thetas[:3], curves.reaches, curves.values[:3], expected=4)
+    assert once_around(few, few.values[:, 0])[1] == pytest.approx(np.append(few.values[:, 0], few.values[0, 0]))
+
+
 def test_a_mirror_curve_read_backwards_is_the_curve_itself():
     thetas = np.pi * np.arange(16) / 16
     curve = 2 + np.sin(2 * thetas) + 0.3 * np.cos(4 * thetas + 1)
