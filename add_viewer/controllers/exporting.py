@@ -15,8 +15,17 @@ from ..models.results import AutodiffusionCurves, FloatArray
 def write_atomically(path: Path, write: Callable[[Path], None]) -> None:
     """Call `write` with a temporary path beside `path` (same ending), then move it there: no file is ever half lost.
 
-    Raises OSError if the folder cannot be written to, and whatever `write` raises; `path` is then as it was.
+    Raises OSError about `path` if it cannot be written, and whatever else `write` raises; `path` is then as it was.
     """
+    try:
+        _write_beside(path, write)
+    except OSError as error:
+        if Path(error.filename or "").name.startswith(f".{path.stem}-"):  # temporary: nobody has asked for that file
+            raise OSError(error.errno, error.strerror, str(path)) from None
+        raise
+
+
+def _write_beside(path: Path, write: Callable[[Path], None]) -> None:
     handle, name = tempfile.mkstemp(prefix=f".{path.stem}-", suffix=path.suffix, dir=path.parent)
     os.close(handle)
     temporary = Path(name)

@@ -93,7 +93,10 @@ class AnimationExport(SlowExport):
             self.record(Path(chosen).with_suffix(".gif"), self.dialog.choice)
 
     def record(self, path: Path, choice: AnimationChoice) -> None:
-        """Record and write; the window stays free."""
+        """Record and write; the window stays free. Nothing is recorded that could not be written."""
+        self._window.message.begin()
+        if not self._saving.may_write(path):
+            return
         self._begin(path)
         self._show_progress(0, choice.count)
         self.recorder.start(choice)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import errno
+import tempfile
 from collections.abc import Callable
 from pathlib import Path
 from typing import Protocol
@@ -13,6 +15,17 @@ from ..models.results import Notice
 from . import dialogs
 from .main_window import MainWindow
 from .theme import LIGHT
+
+_FORBIDDEN = "Choose a folder that you may write to, such as your own."
+REMEDIES = {
+    errno.EACCES: _FORBIDDEN,
+    errno.EPERM: _FORBIDDEN,
+    errno.EROFS: _FORBIDDEN,
+    errno.ENOENT: "Choose a folder that is there.",
+    errno.ENOTDIR: "Choose a folder that is there.",
+    errno.ENOSPC: "Free some space, or choose a folder on another disk.",
+}
+"""What to do about a file that could not be written, by the system's number of the reason."""
 
 
 class WriteAtomically(Protocol):
@@ -86,9 +99,22 @@ class Saving:
         try:
             self.write_whole(path, write)
         except OSError as error:
-            self._window.results.noticed.emit(Notice(f"{path.name} was not saved: {self.explain(error)}"))
+            self.tell_not_saved(path, error)
             return
         self.tell_saved(path)
+
+    def may_write(self, path: Path) -> bool:
+        """Whether a file can be made beside `path`; if not, says so before any work is done for it."""
+        try:
+            with tempfile.TemporaryFile(dir=path.parent):
+                return True
+        except OSError as error:
+            self.tell_not_saved(path, OSError(error.errno, error.strerror, str(path)))
+            return False
+
+    def tell_not_saved(self, path: Path, error: BaseException) -> None:
+        """Say why there is no file at `path`, and what to do."""
+        self._window.results.noticed.emit(not_saved(path, error, self.explain))
 
     def tell_saved(self, path: Path) -> None:
         """Say where it is, and begin there next time."""
@@ -101,6 +127,12 @@ class Saving:
         """What a file about the active shape may be called."""
         shape = self._window.session.state.active
         return "shape" if shape is None else shape.name.replace("/", "-").replace(",", "")
+
+
+def not_saved(path: Path, error: BaseException, explain: Callable[[BaseException], str]) -> Notice:
+    """The message about a file that could not be written."""
+    remedy = REMEDIES.get(error.errno, "") if isinstance(error, OSError) and error.errno is not None else ""
+    return Notice(" ".join(part for part in (f"{path.name} was not saved: {explain(error)}", remedy) if part))
 
 
 def save_image(image: QImage, path: Path) -> None:

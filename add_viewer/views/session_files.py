@@ -11,9 +11,9 @@ from typing import TYPE_CHECKING, Any, Protocol
 from PySide6.QtCore import QByteArray
 from PySide6.QtWidgets import QFileDialog
 
-from ..models.results import Notice
 from ..models.session_file import ENDING, CameraPlace, KeptSession
 from .restore_banner import RestoreBanner
+from .saving import not_saved
 from .settings import LAYOUT_VERSION
 
 if TYPE_CHECKING:
@@ -95,7 +95,7 @@ class SessionFiles:
         try:
             self._keeping.save(path)
         except OSError as error:
-            self._window.results.noticed.emit(Notice(f"{path.name} was not saved: {self._explain(error)}"))
+            self._window.results.noticed.emit(not_saved(path, error, self._explain))
             return
         self._window.message.succeed()
         self._window.settings.folder = str(path.parent)

@@ -86,7 +86,7 @@ class SlowExport:
 
     def _failed(self, error: BaseException) -> None:
         self._rest()
-        self._not_saved(self._saving.explain(error))
+        self._saving.tell_not_saved(self._path, error)
 
     def _not_saved(self, reason: str) -> None:
         self._window.results.noticed.emit(Notice(f"{self._path.name} was not saved: {reason}"))

@@ -30,3 +30,13 @@ def test_the_temporary_file_has_the_ending_that_decides_the_format(tmp_path):
 def test_a_folder_that_does_not_exist_is_an_error(tmp_path):
     with pytest.raises(OSError, match=r"."):
         write_atomically(tmp_path / "none" / "x.png", lambda temporary: temporary.write_text(""))
+
+
+def test_a_file_that_cannot_be_written_is_called_by_its_own_name(tmp_path):
+    def fill_the_disk(temporary):
+        raise OSError(28, "No space left on device", str(temporary))
+
+    for path, write in ((tmp_path / "none" / "x.png", print), (tmp_path / "x.png", fill_the_disk)):
+        with pytest.raises(OSError, match=r"\[Errno") as caught:
+            write_atomically(path, write)
+        assert caught.value.filename == str(path)

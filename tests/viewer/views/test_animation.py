@@ -68,6 +68,12 @@ def test_time_goes_there_and_back(heated, qtbot, tmp_path):
     assert np.abs(pictures[0] - pictures[4]).mean() > 0.5
 
 
+def test_nothing_is_recorded_for_a_folder_that_cannot_be_written_to(heated, tmp_path):
+    heated.assembly.animations.record(tmp_path / "none" / "turn.gif", AnimationChoice("turntable", 240, 0.8, 10))
+    assert not heated.assembly.animations.bar.isVisible()
+    assert "turn.gif was not saved" in heated.window.message.text.text()
+
+
 def test_cancel_leaves_no_file_and_everything_as_it_was(heated, qtbot, tmp_path):
     state = heated.session.state
     animations = heated.assembly.animations

@@ -303,8 +303,10 @@ def test_pictures_have_the_size_and_background_that_was_asked_for(person, tmp_pa
 
 def test_a_picture_that_cannot_be_written_is_told(person, tmp_path):
     person.open()
-    person.assembly.saving.save_picture(tmp_path / "none" / "picture.png", PictureChoice(1, False, True))
-    assert "was not saved" in person.window.message.text.text()
+    path = tmp_path / "none" / "picture.png"
+    person.assembly.saving.save_picture(path, PictureChoice(1, False, True))
+    words = f"picture.png was not saved: No such file or directory ({path}). Choose a folder that is there."
+    assert person.window.message.text.text() == words
 
 
 def test_curves_are_exported(person, qtbot, tmp_path):
