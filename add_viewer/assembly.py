@@ -148,7 +148,7 @@ class Assembly:
         run, later = self.worker.submit, Delay(KEEPING_PAUSE)
         self.keeping = KeepingController(self.session, self.results, run, later, process, read=read)
         self.keeping.opened = self._session_opened
-        self.keeping.failed = lambda reason: self._failures.append(reason)
+        self.keeping.failed = self._session_failed
         self.session_files = SessionFiles(self.window, self.keeping, explain)
         files = self.session_files
         self.keeping.outside = Outside(files.cameras, files.layout, files.apply)
@@ -236,7 +236,19 @@ class Assembly:
                 self.session.pick(vertex, add=True)
             self._picks = []
 
+    def _session_failed(self, reason: str) -> None:
+        self._failures.append(reason)
+        for reference in self.window.settings.recent:
+            if reference.endswith(ENDING):
+                self._forget_if_gone(reference)
+
+    def _forget_if_gone(self, reference: str) -> None:
+        path = Path(reference)
+        if path.is_absolute() and not path.exists():  # the name of a shipped shape is no absolute path
+            self.window.forget(reference)
+
     def _failed(self, reference: str, reason: str) -> None:
+        self._forget_if_gone(reference)
         self._failures.append(f"{reference}: {reason}" if reference not in reason else reason)
 
     # -- running ------------------------------------------------------------------------------------------------------

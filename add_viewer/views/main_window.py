@@ -258,6 +258,13 @@ class MainWindow(QMainWindow):
         self.settings.add_recent(reference)
         self._show_recent()
 
+    def forget(self, reference: str) -> None:
+        """Take a reference off the recent ones and say so, if it is one of them."""
+        if reference in self.settings.recent:
+            self.settings.remove_recent(reference)
+            self._show_recent()
+            self.statusBar().showMessage(f"Taken off the recent files: {reference}", 6000)
+
     def _clear_recent(self) -> None:
         self.settings.clear_recent()
         self._show_recent()

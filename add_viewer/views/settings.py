@@ -50,6 +50,10 @@ class Settings:
         others = [each for each in self.recent if each != reference]
         self._store.setValue("recent", [reference, *others][:RECENT_LIMIT])
 
+    def remove_recent(self, reference: str) -> None:
+        """Forget one of them."""
+        self._store.setValue("recent", [each for each in self.recent if each != reference])
+
     def clear_recent(self) -> None:
         self._store.setValue("recent", [])
 

@@ -277,6 +277,20 @@ def test_a_second_shape_takes_the_pick_and_leaves_its_curves_in_sight(person, qt
     assert person.results.carried["humans/1"][0].vertex == THIGH
 
 
+def test_recent_files_that_are_gone_leave_the_list_and_damaged_ones_stay(person, qtbot, tmp_path):
+    window, gone, damaged = person.window, tmp_path / "gone.off", tmp_path / "damaged.off"
+    damaged.write_text("OFF")
+    last = tmp_path / "gone.addsession"
+    for reference in ("humans/0", str(gone), str(damaged), str(last)):
+        window.remember(reference)
+    for path, left in ((gone, 3), (damaged, 3), (last, 2)):
+        window.message.clear()
+        window.open_requested.emit(str(path))
+        qtbot.waitUntil(lambda path=path: path.name in window.message.text.text(), timeout=20000)
+        assert len(window.settings.recent) == len(window.start.recent) == left
+    assert window.settings.recent == [str(damaged), "humans/0"]
+
+
 def test_a_training_that_begins_clears_what_went_wrong_before(person, monkeypatch):
     person.results.report("an earlier failure")
     monkeypatch.setattr(person.assembly.training, "start", lambda request: None)
