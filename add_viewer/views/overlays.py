@@ -210,43 +210,60 @@ class AxesTriad(Overlay):
 class Hint(Overlay):
     """What to do next, or what is being done, where there is nothing to see yet; long words take several lines."""
 
-    _PADDING = QSize(16, 7)
-
     def __init__(self, parent: QWidget) -> None:
         super().__init__(parent, QSize(320, 36))
-        self._text = ""
+        self._text, self._is_small = "", False
 
     def show_text(self, text: str) -> None:
         self._text = text
         self.setVisible(bool(text))
         self.update()
 
-    def fit(self, width: int) -> None:
-        """Take up at most `width`."""
-        self.setFixedSize(max(140, min(400, width)), 128)
+    def fit(self, width: int, *, small: bool) -> None:
+        """Take up at most `width`; a small one lies in the strip that is kept free for a small colour bar."""
+        self._is_small = small
+        self.setFixedSize(
+            QSize(max(width, 1), ColourBar.SMALL.height()) if small else QSize(max(140, min(400, width)), 128)
+        )
+        self.update()
 
     def draw(self, painter: QPainter) -> None:
-        self._pen(painter, "text")
-        across, down = self._PADDING.width(), self._PADDING.height()
+        self._pen(painter, "text", size=0.9 if self._is_small else 1.0)
+        across, down = (10, 3) if self._is_small else (16, 7)
         flags = Qt.AlignmentFlag.AlignCenter | Qt.TextFlag.TextWordWrap
-        words = self._words(painter, flags, self.width() - 2 * across - 2)
+        room = QSizeF(self.width() - 2 * across - 2, self.height() - 2 * down - 1)
+        text = _cut(painter, flags, room, self._text)
+        words = _balanced(painter, flags, room.width(), text)
         width, height = words.width() + 2 * across, words.height() + 2 * down
-        box = QRectF(self.width() - width - 1, self.height() - height - 1, width, height)
+        left = self.width() - width - 1
+        box = QRectF(0.5 * left if self._is_small else left, self.height() - height - 1, width, height)
         painter.setBrush(self.theme.colour("panel"))
         painter.setPen(QPen(self.theme.colour("line"), 1))
-        painter.drawRoundedRect(box, 16, 16)
+        painter.drawRoundedRect(box, min(16.0, 0.5 * height), min(16.0, 0.5 * height))
         painter.setPen(self.theme.colour("text"))
-        painter.drawText(box.adjusted(across - 1, 0, 1 - across, 0), flags, self._text)
+        painter.drawText(box.adjusted(across - 1, 0, 1 - across, 0), flags, text)
 
-    def _words(self, painter: QPainter, flags: int, width: float) -> QSizeF:
-        """Size of the words in as few lines as this width needs, each about as long as the others."""
 
-        def wrapped(width: float) -> QSizeF:
-            return painter.boundingRect(QRectF(0, 0, width, self.height()), flags, self._text).size()
+def _wrapped(painter: QPainter, flags: int, width: float, text: str) -> QSizeF:
+    """Size of `text` broken into lines of at most `width`."""
+    return painter.boundingRect(QRectF(0, 0, width, 1000), flags, text).size()
 
-        usual = wrapped(width)
-        for share in (0.5, 0.6, 0.7, 0.8, 0.9):
-            narrower = wrapped(share * width)
-            if narrower.height() <= usual.height() and narrower.width() <= share * width:
-                return narrower
-        return usual
+
+def _cut(painter: QPainter, flags: int, room: QSizeF, text: str) -> str:
+    """As many words as there is room for."""
+    words = text.split()
+    for count in range(len(words), 0, -1):
+        shown = " ".join(words[:count]) + ("" if count == len(words) else "…")
+        if _wrapped(painter, flags, room.width(), shown).height() <= room.height():
+            return shown
+    return "…"
+
+
+def _balanced(painter: QPainter, flags: int, width: float, text: str) -> QSizeF:
+    """Size of `text` in as few lines as this width needs, each about as long as the others."""
+    usual = _wrapped(painter, flags, width, text)
+    for share in (0.5, 0.6, 0.7, 0.8, 0.9):
+        narrower = _wrapped(painter, flags, share * width, text)
+        if narrower.height() <= usual.height() and narrower.width() <= share * width:
+            return narrower
+    return usual

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -144,7 +145,14 @@ class ShapeView(QWidget):
     def _show_hint(self) -> None:
         state, field = self._session.state, self.field
         invites = self.key == state.active_key and self.panel == 0
-        self.hint.show_text((field.message if field is not None else "") or (invitation(state) if invites else ""))
+        message = "" if field is None else field.message
+        self.hint.show_text(self._without_name(message) or (invitation(state) if invites else ""))
+        self.setToolTip(message)  # a small view may not have room for all of it
+
+    def _without_name(self, message: str) -> str:
+        """The shape's own name stands in the corner of its view."""
+        name = "" if self._shown is None else re.escape(self._shown.name)
+        return re.sub(rf" of {name}(?= …| is not known|: )", "", message)
 
     def _field_came(self, panel: int, key: str) -> None:
         if panel == self.panel and (key == self.key or self._session.state.arrangement.common_range):
@@ -240,8 +248,9 @@ class ShapeView(QWidget):
         self.triad.move(gap - 4, height - self.triad.height() - gap + 4)
         left = (width - self.colour_bar.width()) // 2 if small else width - self.colour_bar.width() - gap
         self.colour_bar.move(left, height - self.colour_bar.height() - (GRID // 2 if small else gap))
-        self.hint.fit(width - 2 * gap if small else int(0.3 * width))  # beside what stands in the middle
-        self.hint.move(width - self.hint.width() - gap, height - self.hint.height() - gap)
+        self.hint.fit(width - 2 * gap if small else int(0.3 * width), small=small)  # beside what stands in the middle
+        edge = GRID // 2 if small else gap
+        self.hint.move(width - self.hint.width() - gap, height - self.hint.height() - edge)
 
     def _leave_room(self) -> None:
         """Keep the fitted shape clear of name and buttons, and of the bar below it; of small views, all do alike."""

@@ -3,8 +3,9 @@
 import numpy as np
 import pytest
 from PySide6.QtCore import QPoint, QPointF, QRect, QSize, Qt
+from PySide6.QtGui import QImage, QPainter
 
-from add_viewer.models.fields import FieldChoice
+from add_viewer.models.fields import FieldChoice, ShapeField
 
 THIGH = 6868
 
@@ -161,7 +162,6 @@ def test_a_picture_of_several_views_is_one_picture(people, tmp_path):
 
 
 def _pixels(each):
-    from PySide6.QtGui import QImage
 
     image = each.canvas.grabFramebuffer().convertToFormat(QImage.Format.Format_RGB888)
     flat = np.frombuffer(image.constBits(), dtype=np.uint8).reshape(image.height(), image.bytesPerLine())
@@ -181,6 +181,34 @@ def test_the_discs_of_a_cloud_grow_with_the_picture(people, qtbot):
         return (alpha > 0).mean()
 
     assert covered(3) == pytest.approx(covered(1), rel=0.06)
+
+
+def test_what_a_small_view_says_lies_below_its_shape_and_leaves_out_its_name(person, make_torus, qtbot):
+    for name in ("left", "middle", "right"):
+        person.session.add_shape(make_torus(name))
+    person.session.choose_comparison(FieldChoice("distance", "wks"))
+    qtbot.waitUntil(lambda: len(person.window.scene.views) == 6 and 0 < person.window.view.height() < 380)
+    view = person.window.view
+    longest = (
+        "The descriptor of this shape is not known and here is a very long reason why that is so, and a remedy" * 3
+    )
+    key, choice = view.key, person.session.state.field
+    view.canvas.grabFramebuffer()
+    person.results.set_field(0, key, ShapeField(shape=key, choice=choice, message=longest))
+    low = view.canvas.place_of(int(view.shape.shape.vertices[:, 1].argmin())).y()
+    assert view.hint.isVisible()
+    assert view.hint.y() > low
+    assert view.toolTip() == longest
+    ink = QImage(view.hint.size(), QImage.Format.Format_ARGB32)
+    ink.fill(0)
+    painter = QPainter(ink)
+    view.hint.draw(painter)
+    painter.end()
+    across = [sum(ink.pixelColor(x, y).alpha() > 0 for x in range(ink.width())) for y in range(ink.height())]
+    inked = [count for count in across if count]
+    assert inked[0] < inked[len(inked) // 2] - 8, "cut to the lines that fit: the box has its round corners"
+    assert view._without_name("Computing WKS of right … 40 %") == "Computing WKS … 40 %"
+    assert view._without_name("WKS matches of right and left …") == "WKS matches of right and left …"
 
 
 @pytest.mark.parametrize("size", [1.0, 2.0])
