@@ -41,18 +41,25 @@ def _distance_field(place: Place, values: np.ndarray, own: int | None) -> ShapeF
     choice = place.choice
     away = values if own is None else np.where(np.arange(len(values)) == own, 0.0, values)
     best = best_places(away, place.shape.shape.vertices)
-    quantile = "median" if choice.saturation == 50.0 else f"{choice.saturation:.3g} %"
     return ShapeField(
         shape=place.shape.key,
         choice=choice,
         values=values,
         title=f"Distance in {descriptor_name(choice.descriptor).title}",
-        notes=("no unit", f"saturated at the {quantile}"),
+        notes=("no unit", f"saturated at the {quantile_words(choice.saturation)}"),
         tones="distance",
         scale=ValueScale.saturated(values, choice.saturation),
         symbol="distance",
         best=tuple(int(vertex) for vertex in best if vertex != own),
     )
+
+
+def quantile_words(percentile: float) -> str:
+    """Where colours saturate: "median", "maximum", "10th percentile"."""
+    known = {50.0: "median", 100.0: "maximum"}
+    number = f"{percentile:.3g}"
+    ending = "th" if number[-2:-1] == "1" or "." in number else {"1": "st", "2": "nd", "3": "rd"}.get(number[-1], "th")
+    return known.get(percentile, f"{number}{ending} percentile")
 
 
 def ambiguity_plan(place: Place, sources: Sources) -> Plan:

@@ -10,6 +10,7 @@ from add_viewer.controllers.descriptor_maps import ambiguity, best_places, dista
 from add_viewer.controllers.descriptors import DescriptorStore
 from add_viewer.controllers.field_plans import Sources
 from add_viewer.controllers.fields import FieldController
+from add_viewer.controllers.fields_of_descriptors import quantile_words
 from add_viewer.controllers.fields_of_heat import blended
 from add_viewer.controllers.kernel import KernelController
 from add_viewer.controllers.matching import MatchingController
@@ -72,6 +73,19 @@ def test_a_distance_map_is_zero_at_the_point_and_saturates_at_the_median(world):
     world.session.choose_field(saturation=90.0)
     world.settle()
     assert_allclose(world.field().scale.high, np.percentile(world.field().values, 90))
+    assert world.field().notes[1] == "saturated at the 90th percentile"
+
+
+@pytest.mark.parametrize(
+    ("percentile", "words"),
+    [
+        *((1, "1st percentile"), (2, "2nd percentile"), (3, "3rd percentile"), (11, "11th percentile")),
+        *((13, "13th percentile"), (21, "21st percentile"), (12.2, "12.2th percentile")),
+        *((50, "median"), (100, "maximum")),
+    ],
+)
+def test_percentiles_are_read_as_people_say_them(percentile, words):
+    assert quantile_words(float(percentile)) == words
 
 
 def test_two_descriptors_side_by_side_are_computed_once_each(world):
