@@ -113,7 +113,7 @@ class Model:
         return self.match_inputs(self.recipe.inputs(family), family.mass, shape)
 
     def match_inputs(self, values: Inputs, mass: FloatArray, shape: TriangleMesh | PointCloud | None = None) -> Matches:
-        """As `match`; arguments as of `describe_inputs`."""
+        """As `match`, from inputs (n, C, M) and `mass` (n,); arguments as of `describe_inputs`."""
         self._check_classifier()
         best = [part.max(dim=1) for part in self._outputs(values, mass, shape)]
         return Matches(
