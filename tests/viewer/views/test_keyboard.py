@@ -2,6 +2,7 @@
 
 import pytest
 from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QApplication
 
 CONTROL, SHIFT = Qt.KeyboardModifier.ControlModifier, Qt.KeyboardModifier.ShiftModifier
 
@@ -39,6 +40,20 @@ def test_space_in_a_list_ticks_its_line_and_plays_nothing(person, qtbot, floatin
     qtbot.keyClick(shapes, Qt.Key.Key_Space)
     assert ticked == [person.session.state.active.name]
     assert not person.window.parameters.play.isChecked()
+
+
+def test_space_plays_once_a_shape_is_open_and_after_a_click_on_it(person, qtbot):
+    window, start = person.window, person.window.start
+    start.list.setFocus()
+    qtbot.waitUntil(start.list.hasFocus, timeout=2000)
+    person.open()
+    for _ in range(2):
+        qtbot.waitUntil(person.canvas.hasFocus, timeout=2000)
+        qtbot.keyClick(QApplication.focusWidget(), Qt.Key.Key_Space)
+        assert window.parameters.play.isChecked()
+        window.parameters.play.setChecked(False)
+        person.assembly.exploring.chooser.buttons[0].setFocus()
+        person.click(6868)
 
 
 def test_nothing_is_done_to_shapes_unseen_and_escape_leads_back_to_them(person, qtbot):
