@@ -175,8 +175,6 @@ class MainWindow(QMainWindow):
         shape = self.session.state.active
         self.start.show_way_back(None)
         self.menus.show_hidden(False)
-        if shape is not None and self.pages.currentWidget() is self.start:
-            self.view.canvas.setFocus()  # or Qt hands the focus to the next control, which then takes Space and Enter
         self.pages.setCurrentWidget(self.start if shape is None else self.scene)
         self.setWindowTitle(TITLE if shape is None else f"{shape.name} — {TITLE}")
         self.parameters.play.setChecked(False)
