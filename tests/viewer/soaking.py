@@ -222,6 +222,9 @@ class Soaker:
     def _type(self) -> None:
         panel = self.window.parameters
         field = self._random.choice((panel.alpha.field, panel.theta, panel.time.field, panel.picks.field))
+        if not field.isVisible():
+            return
+        field.setFocus()  # where keys go: Return presses what has the focus
         field.selectAll()
         QTest.keyClicks(field, self._random.choice(("0", "7.5", "200", "-3", "1e9", "nonsense", "", "33")))
         QTest.keyClick(field, Qt.Key.Key_Return)
