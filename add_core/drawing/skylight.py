@@ -7,6 +7,7 @@ from scipy.spatial import KDTree
 
 from .._check import FloatArray, IntArray
 from ..geometry import PointCloud, TriangleMesh
+from ..geometry.shapes import even_directions
 from .facets import Facets
 from .raster import rasterise
 
@@ -27,7 +28,7 @@ def sky_share(shape: TriangleMesh | PointCloud, *, directions: int = 64) -> Floa
     points, normals = (shape.vertices - middle) / (2 * reach), _vertex_normals(facets, shape.vertex_count)
     solid = facets.faces[-facets.hiding :] if facets.hiding else facets.faces
     seen, whole = np.zeros(len(points)), np.zeros(len(points))
-    for toward in _spread(directions):
+    for toward in even_directions(directions):
         cosine = normals @ toward
         facing = np.flatnonzero(cosine > 0.05)
         seen[facing] += cosine[facing] * _open(places, solid, points[facing], toward)
@@ -47,14 +48,6 @@ def _open(places: FloatArray, faces: IntArray, points: FloatArray, toward: Float
     at = points @ axes.T * scale + offset
     column, row = np.clip(at[:, :2].astype(np.int64), 0, RESOLUTION - 1).T
     return np.asarray(depth[row * RESOLUTION + column] < at[:, 2] + _TOLERANCE, dtype=np.float64)
-
-
-def _spread(count: int) -> FloatArray:
-    """(count, 3) unit vectors spread evenly over the sphere, along a spiral of golden angles."""
-    height = 1 - (2 * np.arange(count) + 1) / count
-    turn = np.pi * (3 - np.sqrt(5)) * np.arange(count)
-    radius = np.sqrt(1 - height**2)
-    return np.stack([radius * np.cos(turn), radius * np.sin(turn), height], axis=1)
 
 
 def _vertex_normals(facets: Facets, count: int) -> FloatArray:

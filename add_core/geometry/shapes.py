@@ -93,3 +93,11 @@ def _grid_faces(rows: int, columns: int, *, wrap_rows: bool, wrap_columns: bool)
     first = np.where(even, np.stack([a, b, d], 1), np.stack([a, b, e], 1))
     second = np.where(even, np.stack([a, d, e], 1), np.stack([b, d, e], 1))
     return np.concatenate([first, second]).astype(np.int64)
+
+
+def even_directions(count: int) -> FloatArray:
+    """(count, 3) unit vectors spread evenly over the sphere, along a spiral of golden angles."""
+    height = 1 - (2 * np.arange(count) + 1) / count
+    turn = np.pi * (3 - np.sqrt(5)) * np.arange(count)
+    radius = np.sqrt(1 - height**2)
+    return np.stack([radius * np.cos(turn), radius * np.sin(turn), height], axis=1)

@@ -84,8 +84,7 @@ class Model:
         The shape is brought to unit geodesic diameter first, so its unit of length does not matter. progress, workers,
         cache : as for `compute_spectra`, which takes nearly all of the time.
         """
-        family = self.recipe.spectra(shape, progress=progress, workers=workers, cache=cache)
-        return self.describe_inputs(self.recipe.inputs(family), family.mass, shape)
+        return self.describe_inputs(*self._inputs_of(shape, progress, workers, cache))
 
     def describe_inputs(
         self, values: Inputs, mass: FloatArray, shape: TriangleMesh | PointCloud | None = None
@@ -109,8 +108,7 @@ class Model:
         Raises ParameterError if the network does not end in Softmax: compare descriptors of two shapes then.
         """
         self._check_classifier()
-        family = self.recipe.spectra(shape, progress=progress, workers=workers, cache=cache)
-        return self.match_inputs(self.recipe.inputs(family), family.mass, shape)
+        return self.match_inputs(*self._inputs_of(shape, progress, workers, cache))
 
     def match_inputs(self, values: Inputs, mass: FloatArray, shape: TriangleMesh | PointCloud | None = None) -> Matches:
         """As `match`, from inputs (n, C, M) and `mass` (n,); arguments as of `describe_inputs`."""
@@ -145,8 +143,14 @@ class Model:
         cache: bool = True,
     ) -> FloatArray:
         """As `embed_inputs`, from the shape; arguments as of `describe`."""
+        return self.embed_inputs(*self._inputs_of(shape, progress, workers, cache))
+
+    def _inputs_of(
+        self, shape: TriangleMesh | PointCloud, progress: Progress | None, workers: int | None, cache: bool
+    ) -> tuple[Inputs, FloatArray, TriangleMesh | PointCloud]:
+        """What `describe_inputs` and its like take."""
         family = self.recipe.spectra(shape, progress=progress, workers=workers, cache=cache)
-        return self.embed_inputs(self.recipe.inputs(family), family.mass, shape)
+        return self.recipe.inputs(family), family.mass, shape
 
     def _check_classifier(self) -> None:
         if not self.network.is_classifier:

@@ -5,6 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from add_core.geometry.shapes import even_directions
+
 FloatArray = NDArray[np.float64]
 
 DIRECTIONS = 200
@@ -18,7 +20,7 @@ def outline_of(vertices: FloatArray) -> FloatArray:
     """(m, 3), some of the vertices (n, 3): those that reach farthest, and a few thousand in between; all if few."""
     if len(vertices) <= _FEW:
         return vertices
-    directions = _on_a_sphere(DIRECTIONS)
+    directions = np.vstack([np.eye(3), -np.eye(3), even_directions(DIRECTIONS - 6)])
     farthest = np.zeros(DIRECTIONS, dtype=np.int64)
     reach = np.full(DIRECTIONS, -np.inf)
     for low in range(0, len(vertices), _FEW):
@@ -29,13 +31,3 @@ def outline_of(vertices: FloatArray) -> FloatArray:
         reach = np.maximum(value, reach)
     evenly = np.arange(0, len(vertices), -(-len(vertices) // EVENLY))
     return vertices[np.union1d(farthest, evenly)]
-
-
-def _on_a_sphere(count: int) -> FloatArray:
-    """(count, 3) unit vectors along a spiral, evenly far from one another, the axes among them."""
-    z = 1.0 - (2.0 * np.arange(count) + 1.0) / count
-    around = np.pi * (3.0 - np.sqrt(5.0)) * np.arange(count)
-    flat = np.sqrt(1.0 - z**2)
-    found = np.stack([flat * np.cos(around), flat * np.sin(around), z], axis=1)
-    found[:6] = np.vstack([np.eye(3), -np.eye(3)])
-    return found
