@@ -10,7 +10,7 @@ from add_core.geometry.shapes import even_directions
 FloatArray = NDArray[np.float64]
 
 DIRECTIONS = 200
-"""In which the farthest points are kept; between two of them a shape hardly reaches farther."""
+"""In which the farthest points are kept; closer together where a shape is flat."""
 EVENLY = 4000
 """Points kept besides, to know where in a picture the shape is."""
 _FEW = 20_000
@@ -20,7 +20,9 @@ def outline_of(vertices: FloatArray) -> FloatArray:
     """(m, 3), some of the vertices (n, 3): those that reach farthest, and a few thousand in between; all if few."""
     if len(vertices) <= _FEW:
         return vertices
-    directions = np.vstack([np.eye(3), -np.eye(3), even_directions(DIRECTIONS - 6)])
+    spread = vertices.std(axis=0)
+    flattened = even_directions(DIRECTIONS - 6) / np.where(spread > 0, spread, 1.0)
+    directions = np.vstack([np.eye(3), -np.eye(3), flattened])
     farthest = np.zeros(DIRECTIONS, dtype=np.int64)
     reach = np.full(DIRECTIONS, -np.inf)
     for low in range(0, len(vertices), _FEW):
