@@ -65,9 +65,10 @@ def test_the_inputs_of_a_shape_are_computed_once(tmp_path):
 def test_a_network_learns_two_shapes_by_heart(shapes, tmp_path):
     settings = TrainingSettings(steps=200, pairs=64, noise=0.0, learning_rate=5e-3, checkpoint_every=1000)
     losses = []
-    fit(SMALL, RECIPE, shapes[:2], tmp_path, settings=settings, report=lambda e: losses.append(e.get("loss")))
+    model = fit(SMALL, RECIPE, shapes[:2], tmp_path, settings=settings, report=lambda e: losses.append(e.get("loss")))
     assert losses[0] > 0.5
     assert np.mean(losses[-12:-2]) < 0.02
+    assert model.smoothing == 4.0  # descriptors, not classes
 
 
 @pytest.mark.parametrize("optimizer", ["adam", "adadelta"])

@@ -93,6 +93,7 @@ def test_fields_are_refused_where_they_would_be_lost(awkward, tmp_path, extensio
     [
         ({"u": np.zeros(7)}, r"field 'u' must have shape \(8,\) or \(8, k\), but it has \(7,\)"),
         ({"u": ["a"] * 8}, "field 'u' must hold real numbers"),
+        ({"u": 1j * np.arange(8)}, "field 'u' must hold real numbers"),
         ({" ": np.zeros(8)}, "a field must have a name"),
     ],
 )

@@ -48,6 +48,9 @@ def test_vertices_without_faces_are_never_chosen():
     assert 42 not in farthest_points(mesh, 42)
     with pytest.raises(ParameterError, match="count must be from 1 to 42, but it is 43"):
         farthest_points(mesh, 43)
+    first = TriangleMesh(np.vstack([[[9.0, 9, 9]], sphere(1).vertices]), sphere(1).faces + 1)
+    assert farthest_points(first, 3)[0] == 1
+    assert 0 not in subsample(first, 42).indices
     with pytest.raises(ParameterError, match="start must be a vertex of some face, but no face uses 42"):
         farthest_points(mesh, 3, 42)
 

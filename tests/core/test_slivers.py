@@ -6,10 +6,11 @@ from numpy.testing import assert_allclose
 from scipy.linalg import eigh
 
 from add_core.descriptors import geometry_vectors
+from add_core.errors import ConvergenceError
 from add_core.geometry import TriangleMesh
 from add_core.geometry.shapes import ellipsoid, sphere
 from add_core.operators import AnisotropicLaplacian
-from add_core.spectra import HeatFlow, compute_spectra, compute_spectrum
+from add_core.spectra import HeatFlow, compute_spectra, compute_spectrum, dense
 
 
 def with_flap(mesh, height, *, at=0.3, moved=0.0):
@@ -72,14 +73,20 @@ def test_no_time_is_too_short_for_heat_to_stay_where_it_is():
     assert np.abs(kernel[1:]).max() < 1e-6
 
 
+def test_pairs_that_miss_their_residual_are_no_answer(monkeypatch):
+    monkeypatch.setattr(dense, "failing", lambda matrix, pairs: np.ones(len(pairs.values), dtype=bool))
+    with pytest.raises(ConvergenceError, match="7 of 7 eigenpairs miss a residual of 1e-06, for the shape has faces"):
+        spectrum(ellipsoid(1.0, 0.8, 0.6, subdivisions=2), 8)
+
+
 def test_eigenvalues_of_needles_are_not_negative():
-    side = np.arange(20.0)
+    side = np.arange(30.0)
     x, y = np.meshgrid(side, side)
-    first = (np.arange(19)[:, None] * 20 + np.arange(19)).ravel()
-    faces = np.vstack([np.stack([first, first + 1, first + 21], 1), np.stack([first, first + 21, first + 20], 1)])
+    first = (np.arange(29)[:, None] * 30 + np.arange(29)).ravel()
+    faces = np.vstack([np.stack([first, first + 1, first + 31], 1), np.stack([first, first + 31, first + 30], 1)])
     needles = TriangleMesh(np.stack([x.ravel(), 1e-7 * y.ravel(), 0 * x.ravel()], axis=1), faces)
     family = compute_spectra(
-        needles, alphas=(0.0, 50.0), angles=2, count=50, conductivity="constant", cache=False, workers=1
+        needles, alphas=(0.0, 50.0), angles=4, count=50, conductivity="constant", cache=False, workers=1
     )
     assert family.eigenvalues.min() == 0
     assert np.isfinite(geometry_vectors(family)).all()

@@ -17,14 +17,15 @@ def shape(request):
     return mesh if request.param == "mesh" else PointCloud(mesh.vertices)
 
 
-def test_it_is_the_filter_of_its_formula(shape):
+@pytest.mark.parametrize("strength", [0.1, 3.0, 50.0])
+def test_it_is_the_filter_of_its_formula(shape, strength):
     values = np.random.default_rng(0).normal(size=(shape.vertex_count, 3))
     stiffness = AnisotropicLaplacian(shape, alpha=0.0).stiffness().toarray()
     diagonal = np.diag(stiffness)
     expected = np.linalg.solve(
-        np.diag(diagonal) + 9.0 * stiffness @ (stiffness / diagonal[:, None]), diagonal[:, None] * values
+        np.diag(diagonal) + strength**2 * stiffness @ (stiffness / diagonal[:, None]), diagonal[:, None] * values
     )
-    assert_allclose(smoothed(shape, values, strength=3.0), expected, atol=1e-9)
+    assert_allclose(smoothed(shape, values, strength=strength), expected, atol=1e-9)
 
 
 def test_constants_stay_and_smooth_functions_nearly(shape):
