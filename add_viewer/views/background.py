@@ -10,6 +10,7 @@ from PySide6.QtWidgets import QDockWidget
 
 from ..models.jobs import Jobs
 from ..models.results import Notice
+from .beat import Beat
 from .job_status import JobStatus
 from .jobs_panel import JobsPanel
 from .theme import Theme
@@ -24,11 +25,13 @@ class BackgroundViews:
 
     def __init__(self, window: MainWindow, jobs: Jobs, read_log: Callable[[str], str], trainings: Trainings) -> None:
         self._jobs, self._window = jobs, window
-        self.panel, self.status = JobsPanel(jobs, read_log), JobStatus(jobs)
+        beat = Beat(window)
+        self.panel, self.status = JobsPanel(jobs, read_log, beat), JobStatus(jobs, beat)
         self.jobs_dock = window.panels.add_beside(window.curve_dock, "Jobs", self.panel)
-        self.training_panel = TrainingPanel(jobs, trainings)
+        self.training_panel = TrainingPanel(jobs, trainings, beat)
         self.training_dock = window.panels.add_beside(window.curve_dock, "Training", self.training_panel)
         window.statusBar().addPermanentWidget(self.status)
+        self.status.keep_room(window.statusBar())
         self.status.opened.connect(self.open_jobs)
         self.training_panel.used.connect(self._use)
         window.menus.on("jobs", self.open_jobs)

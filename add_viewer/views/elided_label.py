@@ -8,12 +8,31 @@ from PySide6.QtWidgets import QLabel, QSizePolicy, QStyleOption, QWidget
 
 
 class ElidedLabel(QLabel):
-    """Takes whatever width is left; the whole text is its tooltip while it is cut."""
+    """Takes whatever width is left; the whole text is its tooltip while it is cut.
+
+    New words in a label that is seen change no layout: that of the whole window would follow, and its picture.
+    """
 
     def __init__(self, text: str = "", parent: QWidget | None = None) -> None:
-        super().__init__(text, parent)
+        super().__init__("…", parent)  # from which Qt knows the height of a line
+        self._words = text
         self.setTextFormat(Qt.TextFormat.PlainText)
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Preferred)
+
+    def text(self) -> str:
+        return self._words
+
+    def setText(self, text: str) -> None:
+        if text == self._words:
+            return
+        self._words = text
+        self.setAccessibleName(text)
+        if not self.isVisible():
+            self.updateGeometry()
+        self.update()
+
+    def sizeHint(self) -> QSize:
+        return QSize(self.fontMetrics().horizontalAdvance(self._words), super().sizeHint().height())
 
     def minimumSizeHint(self) -> QSize:
         return QSize(self.fontMetrics().horizontalAdvance("…"), super().minimumSizeHint().height())
@@ -22,8 +41,8 @@ class ElidedLabel(QLabel):
         painter, option = QPainter(self), QStyleOption()
         option.initFrom(self)
         room = self.contentsRect()
-        shown = self.fontMetrics().elidedText(self.text(), Qt.TextElideMode.ElideRight, room.width())
-        self.setToolTip(self.text() if shown != self.text() else "")
+        shown = self.fontMetrics().elidedText(self._words, Qt.TextElideMode.ElideRight, room.width())
+        self.setToolTip(self._words if shown != self._words else "")
         alignment = self.alignment() | Qt.AlignmentFlag.AlignVCenter
         self.style().drawItemText(
             painter, room, alignment, option.palette, self.isEnabled(), shown, self.foregroundRole()

@@ -10,7 +10,6 @@ from PySide6.QtWidgets import (
     QHBoxLayout,
     QLabel,
     QPlainTextEdit,
-    QProgressBar,
     QSizePolicy,
     QToolButton,
     QWidget,
@@ -20,6 +19,7 @@ from ..models.job_words import headline, remark
 from ..models.jobs import Job, Verb
 from .elided_label import ElidedLabel
 from .icons import icon
+from .share_bar import ShareBar
 from .theme import GRID, Theme
 
 VERBS: dict[Verb, tuple[str, str, str]] = {
@@ -52,7 +52,7 @@ class JobRow(QFrame):
         super().__init__(parent)
         self.job, self._theme = job, theme
         self.title, self.state, self.message, self._icon = ElidedLabel(), QLabel(), QLabel(), QLabel()
-        self.progress = QProgressBar()
+        self.progress = ShareBar()
         self.log_button = QToolButton()
         self.buttons = {verb: QToolButton() for verb in VERBS}
         self.log = QPlainTextEdit()
@@ -67,7 +67,6 @@ class JobRow(QFrame):
         self.message.setWordWrap(True)
         self.message.setTextFormat(Qt.TextFormat.PlainText)
         self.message.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
-        self.progress.setTextVisible(False)
         self.log.setReadOnly(True)
         self.log.setFont(QFontDatabase.systemFont(QFontDatabase.SystemFont.FixedFont))
         self.log.setFixedHeight(16 * GRID)
@@ -114,9 +113,7 @@ class JobRow(QFrame):
         self.message.setText(remark(job))
         self.message.setVisible(bool(remark(job)))
         self.progress.setVisible(job.state == "running")
-        share = job.share
-        self.progress.setRange(0, 0 if share is None else 1000)
-        self.progress.setValue(0 if share is None else round(1000 * share))
+        self.progress.show_share(job.share)
         for verb, button in self.buttons.items():
             button.setVisible(job.can(verb))
 

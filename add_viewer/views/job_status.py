@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QSize, Qt, QTimer, Signal
-from PySide6.QtWidgets import QHBoxLayout, QProgressBar, QToolButton, QWidget
+from PySide6.QtCore import QSize, Qt, Signal
+from PySide6.QtWidgets import QHBoxLayout, QStatusBar, QToolButton, QWidget
 
 from ..models.job_words import time_words
 from ..models.jobs import Job, Jobs
+from .beat import Beat
 from .icons import icon
+from .share_bar import ShareBar
 from .theme import GRID, Theme
-
-PATIENCE = 300
-"""Milliseconds between two updates."""
 
 
 class JobStatus(QWidget):
@@ -22,14 +21,12 @@ class JobStatus(QWidget):
 
     opened = Signal()
 
-    def __init__(self, jobs: Jobs, parent: QWidget | None = None) -> None:
+    def __init__(self, jobs: Jobs, beat: Beat, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._jobs, self._shown = jobs, ""
-        self.label, self.cancel_button, self.progress = QToolButton(), QToolButton(), QProgressBar()
+        self.label, self.cancel_button, self.progress = QToolButton(), QToolButton(), ShareBar()
         self._build()
-        self._frame = QTimer(self, singleShot=True, interval=PATIENCE)
-        self._frame.timeout.connect(self._show_job)
-        jobs.changed.connect(lambda id: None if self._frame.isActive() else self._frame.start())
+        jobs.changed.connect(lambda id: beat.ask(self._show_job))
         self.label.clicked.connect(self.opened)
         self.cancel_button.clicked.connect(lambda: self._jobs.cancel(self._shown))
         self._show_job()
@@ -43,12 +40,18 @@ class JobStatus(QWidget):
             button.setProperty("quiet", True)
             button.setCursor(Qt.CursorShape.PointingHandCursor)
         self.progress.setFixedWidth(12 * GRID)
-        self.progress.setTextVisible(False)
         row = QHBoxLayout(self)
         row.setContentsMargins(0, 0, 0, 0)
         row.setSpacing(GRID // 2)
         for widget in (self.label, self.progress, self.cancel_button):
             row.addWidget(widget)
+
+    def keep_room(self, bar: QStatusBar) -> None:
+        """Let the status bar be as high without a job as with one, so that nothing moves when one begins."""
+        was_hidden = self.isHidden()
+        self.show()
+        bar.setMinimumHeight(bar.sizeHint().height())
+        self.setHidden(was_hidden)
 
     def _show_job(self) -> None:
         running = [job for job in self._jobs.all if job.state == "running"]
@@ -57,12 +60,17 @@ class JobStatus(QWidget):
             self._shown = ""
             return
         job = running[-1]
+        self._say(_sentence(job, len(running) - 1), is_new=job.id != self._shown)
         self._shown = job.id
-        self.label.setText(_sentence(job, len(running) - 1))
-        share = job.share
-        self.progress.setRange(0, 0 if share is None else 1000)
-        self.progress.setValue(0 if share is None else round(1000 * share))
+        self.progress.show_share(job.share)
         self.cancel_button.setVisible(job.can("cancel"))
+
+    def _say(self, words: str, *, is_new: bool) -> None:
+        """The room for the words of one job grows but does not shrink: nothing moves for each second less."""
+        self.label.setText(words)
+        needed = self.label.sizeHint()
+        if is_new or needed.width() > self.label.width():
+            self.label.setFixedSize(needed)
 
     def show_theme(self, theme: Theme) -> None:
         """The button in the theme's colour."""

@@ -17,12 +17,10 @@ from PySide6.QtWidgets import (
 )
 
 from ..models.jobs import Job, Jobs
+from .beat import Beat
 from .elided_label import ElidedLabel
 from .job_row import JobRow
 from .theme import GRID, LIGHT, Theme
-
-PATIENCE = 300
-"""Milliseconds between two updates: every repaint of any part composes the whole window."""
 
 EMPTY = (
     "Spectra, trainings and evaluations that run in the background appear here,\n"
@@ -33,16 +31,14 @@ EMPTY = (
 class JobsPanel(QWidget):
     """Shows `jobs` and asks them for what the person chooses. read_log : what a job's command said."""
 
-    def __init__(self, jobs: Jobs, read_log: Callable[[str], str], parent: QWidget | None = None) -> None:
+    def __init__(self, jobs: Jobs, read_log: Callable[[str], str], beat: Beat, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self._jobs, self._read_log, self._theme = jobs, read_log, LIGHT
+        self._jobs, self._read_log, self._beat, self._theme = jobs, read_log, beat, LIGHT
         self.rows: dict[str, JobRow] = {}
         self.offer, self.resume_all = ElidedLabel(), QPushButton()
         self._offer_row = QWidget()
         self._list = QVBoxLayout()
         self._build()
-        self._frame = QTimer(self, singleShot=True, interval=PATIENCE)
-        self._frame.timeout.connect(self._show_jobs)
         jobs.changed.connect(self._job_changed)
         self.resume_all.clicked.connect(self._resume_all)
         self._show_jobs()
@@ -81,8 +77,8 @@ class JobsPanel(QWidget):
         is_same = row is not None and id in self._jobs and self._jobs[id].state == row.job.state
         if not is_same:
             self._show_jobs()
-        elif not self._frame.isActive():
-            self._frame.start()
+        else:
+            self._beat.ask(self._show_jobs)
 
     def _show_jobs(self) -> None:
         listed = self._jobs.listed

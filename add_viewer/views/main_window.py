@@ -13,7 +13,6 @@ from PySide6.QtWidgets import (
     QLabel,
     QMainWindow,
     QMenu,
-    QProgressBar,
     QPushButton,
     QScrollArea,
     QStackedWidget,
@@ -37,6 +36,7 @@ from .parameter_panel import ParameterPanel
 from .scene import SceneView
 from .settings import Settings
 from .shape_view import IDLE_TEXT, ShapeView
+from .share_bar import ShareBar
 from .start_page import Gallery, StartPage
 from .theme import GRID, apply_theme, theme_of
 
@@ -123,9 +123,8 @@ class MainWindow(QMainWindow):
         self._size_panels()
 
     def _build_status(self) -> None:
-        self.hover_label, self.busy_label, self.progress = QLabel(), QLabel(), QProgressBar()
+        self.hover_label, self.busy_label, self.progress = QLabel(), QLabel(), ShareBar()
         self.progress.setFixedWidth(15 * GRID)
-        self.progress.setTextVisible(False)
         self.cancel = QPushButton("Cancel")
         self.cancel.setToolTip("Stop this computation")
         self.cancel.clicked.connect(self.cancel_requested)
@@ -216,8 +215,7 @@ class MainWindow(QMainWindow):
         self.progress.setVisible(bool(self.results.busy))
         share = self.results.progress
         self.cancel.setVisible(share is not None)
-        self.progress.setRange(0, 0 if share is None else 100)
-        self.progress.setValue(0 if share is None else round(100 * share))
+        self.progress.show_share(share)
 
     def _show_notice(self, notice: Notice) -> None:
         self.message.show_notice(notice)

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Protocol
 
 from psygnal import SignalInstance
-from PySide6.QtCore import QSignalBlocker, Qt, QTimer, Signal
+from PySide6.QtCore import QSignalBlocker, Qt, Signal
 from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import (
     QHBoxLayout,
@@ -26,15 +26,13 @@ from ..models.job_words import headline, moment_of, remark
 from ..models.jobs import Job, Jobs, Verb
 from ..models.training import TrainingRequest
 from ..models.training_curves import TrainingCurves
+from .beat import Beat
 from .elided_label import ElidedLabel
 from .icons import icon
 from .job_row import VERBS
 from .theme import GRID, LIGHT, Theme
 from .training_form import TrainingForm
 from .training_plots import TrainingPlots
-
-PATIENCE = 400
-"""Milliseconds between two pictures of the curves: every repaint composes the whole window."""
 
 EMPTY = (
     "Learn a descriptor of your own from shapes with known correspondence. It trains in the background,\n"
@@ -71,9 +69,9 @@ class TrainingPanel(QWidget):
     used = Signal(str)
     deleted = Signal(str)
 
-    def __init__(self, jobs: Jobs, trainings: Trainings, parent: QWidget | None = None) -> None:
+    def __init__(self, jobs: Jobs, trainings: Trainings, beat: Beat, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self._jobs, self._trainings, self._theme = jobs, trainings, LIGHT
+        self._jobs, self._trainings, self._beat, self._theme = jobs, trainings, beat, LIGHT
         self.request = TrainingRequest()
         self._chosen: str | None = None
         self.form: TrainingForm | None = None
@@ -156,8 +154,6 @@ class TrainingPanel(QWidget):
         return column
 
     def _connect(self) -> None:
-        self._frame = QTimer(self, singleShot=True, interval=PATIENCE)
-        self._frame.timeout.connect(self._show_runs)
         self._jobs.changed.connect(lambda id: self._show_soon())
         self._trainings.curves_changed.connect(lambda id: self._show_soon())
         self._trainings.models_changed.connect(lambda path: self._show_soon())
@@ -224,8 +220,7 @@ class TrainingPanel(QWidget):
     # -- models to view -----------------------------------------------------------------------------------------------
 
     def _show_soon(self) -> None:
-        if not self._frame.isActive():
-            self._frame.start()
+        self._beat.ask(self._show_runs)
 
     def _show_runs(self) -> None:
         runs = self._trainings.runs

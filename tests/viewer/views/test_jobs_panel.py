@@ -4,6 +4,7 @@ import pytest
 from PySide6.QtCore import Qt
 
 from add_viewer.models.jobs import Job, JobRequest, Jobs
+from add_viewer.views.beat import Beat
 from add_viewer.views.job_status import JobStatus
 from add_viewer.views.jobs_panel import JobsPanel
 
@@ -16,8 +17,10 @@ class World:
     def __init__(self, home, qtbot):
         self.jobs, self.asked, self.qtbot = Jobs(home), [], qtbot
         self.jobs.asked.connect(lambda verb, id: self.asked.append((verb, id)))
-        self.panel = JobsPanel(self.jobs, lambda id: f"what {id} said")
-        self.status = JobStatus(self.jobs)
+        beat = Beat()
+        self.panel = JobsPanel(self.jobs, lambda id: f"what {id} said", beat)
+        self.status = JobStatus(self.jobs, beat)
+        beat.setParent(self.panel)
         for widget in (self.panel, self.status):
             qtbot.addWidget(widget)
         self.panel.resize(720, 240)

@@ -14,6 +14,7 @@ from add_viewer.controllers.training import TrainingController
 from add_viewer.models.jobs import Job, JobRequest, Jobs
 from add_viewer.models.training import EFFORTS, LOSSES, TrainingRequest
 from add_viewer.models.training_curves import TrainingCurves
+from add_viewer.views.beat import Beat
 from add_viewer.views.plot import round_ticks
 from add_viewer.views.training_form import TrainingForm
 from add_viewer.views.training_panel import TrainingPanel
@@ -124,7 +125,7 @@ def test_enter_in_a_field_enters_the_number_and_starts_nothing(form, qtbot):
 @pytest.fixture
 def panel(screen, qtbot, tmp_path):
     jobs = Jobs(tmp_path)
-    made = TrainingPanel(jobs, TrainingController(jobs, list, list))
+    made = TrainingPanel(jobs, TrainingController(jobs, list, list), Beat())
     for number, state in enumerate(("interrupted", "running", "interrupted")):
         id = f"2026112{number}-100000-train"
         request = JobRequest("train", f"training {number}", (), tmp_path / id, resumable=True)
