@@ -72,6 +72,15 @@ class SessionState:
         return (self.field,) if self.compare is None else (self.field, self.compare)
 
 
+@dataclass(frozen=True)
+class Step:
+    """A change that can be undone or done again. kind : what it was, e.g. "pick" or "diffuse theta"."""
+
+    kind: str
+    before: SessionState
+    after: SessionState
+
+
 class Session:
     """The current `SessionState` with undo. Signals carry nothing: read `state`.
 
@@ -90,8 +99,8 @@ class Session:
 
     def __init__(self) -> None:
         self.state = SessionState()
-        self._past: list[SessionState] = []
-        self._future: list[SessionState] = []
+        self._past: list[tuple[str, SessionState]] = []  # the kind of a change, and the state that it left
+        self._future: list[tuple[str, SessionState]] = []  # and here the state that it leads to
         self._last_kind: str | None = None
 
     # -- what a person does -------------------------------------------------------------------------------------------
@@ -261,17 +270,29 @@ class Session:
     def can_redo(self) -> bool:
         return bool(self._future)
 
+    @property
+    def undo_step(self) -> Step | None:
+        """What `undo` takes back."""
+        return Step(*self._past[-1], self.state) if self._past else None
+
+    @property
+    def redo_step(self) -> Step | None:
+        """What `redo` does again."""
+        return Step(self._future[-1][0], self.state, self._future[-1][1]) if self._future else None
+
     def undo(self) -> None:
         """Back to the state before the last change."""
         if self._past:
-            self._future.append(self.state)
-            self._replace(self._past.pop())
+            kind, state = self._past.pop()
+            self._future.append((kind, self.state))
+            self._replace(state)
 
     def redo(self) -> None:
         """Forward again, after undo."""
         if self._future:
-            self._past.append(self.state)
-            self._replace(self._future.pop())
+            kind, state = self._future.pop()
+            self._past.append((kind, self.state))
+            self._replace(state)
 
     def end_gesture(self) -> None:
         """A drag or a typed number is done: the next change undoes on its own."""
@@ -291,7 +312,7 @@ class Session:
         if state == self.state:
             return
         if not (coalesce and kind == self._last_kind):
-            self._past = [*self._past[-UNDO_LIMIT:], self.state]
+            self._past = [*self._past[-UNDO_LIMIT:], (kind, self.state)]
         self._future.clear()
         self._replace(state)
         self._last_kind = kind

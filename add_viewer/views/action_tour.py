@@ -11,10 +11,15 @@ from PySide6.QtWidgets import QMenu, QMenuBar
 
 @dataclass(frozen=True, eq=False)
 class Stop:
-    """An action. menu : the words of the menu bar. title : its own, after those of a menu inside the menu."""
+    """An action.
+
+    menu : the words of the menu bar. title : its own, after those of a menu inside the menu. name : the same, without
+    what it would be done to now.
+    """
 
     menu: str
     title: str
+    name: str
     action: QAction
 
     @property
@@ -44,4 +49,5 @@ def _inside(menu: QMenu, name: str, before: str) -> Iterator[Stop]:
         if isinstance(inner, QMenu):
             yield from _inside(inner, name, f"{before}{words}: ")
         elif not action.isSeparator() and words:
-            yield Stop(name, f"{before}{words}", action)
+            always = plain(action.data() or action.text())
+            yield Stop(name, f"{before}{words}", f"{before}{always}", action)

@@ -64,7 +64,7 @@ def menu_commands(window: QMainWindow) -> list[Command]:
     """Every action of the menus."""
     return [
         Command(
-            name=f"{stop.menu}: {stop.title}",
+            name=f"{stop.menu}: {stop.name}",
             title=stop.title,
             section=stop.menu,
             do=stop.action.trigger,

@@ -25,6 +25,7 @@ from add_core import __version__
 from ..models.display import Display
 from ..models.results import Notice, Results
 from ..models.session import Session
+from ..models.step_words import words_of
 from .aids import Aids
 from .context_menu import context_menu
 from .curve_panel import CurvePanel
@@ -41,7 +42,10 @@ from .start_page import Gallery, StartPage
 from .theme import GRID, apply_theme, theme_of
 
 TITLE = "Anisotropic Diffusion Descriptors"
-NEED_A_SHAPE = ("close", "script", "figure", "animation", "screenshot")
+NEED_A_SHAPE = (
+    *("close", "script", "figure", "animation", "screenshot"),
+    *("choose_field", "choose_comparison", "explore_symmetry", "transfer"),
+)
 """Actions of the menus that need an open shape, beside those of its view."""
 
 
@@ -177,6 +181,7 @@ class MainWindow(QMainWindow):
         self.pages.setCurrentWidget(self.start if shape is None else self.scene)
         self.setWindowTitle(TITLE if shape is None else f"{shape.name} — {TITLE}")
         self.parameters.play.setChecked(False)
+        self.menus.say("close", "" if shape is None else f"&Close {shape.name.replace('&', '&&')}")
         for name in (*NEED_A_SHAPE, "go_to", "fit", "play", "front", "back", "left", "right", "top"):
             self.menus.actions[name].setEnabled(shape is not None)
         self.hover_label.setText("" if shape is None else IDLE_TEXT)
@@ -192,6 +197,7 @@ class MainWindow(QMainWindow):
         self.menus.show_hidden(shape is not None)
         self.parameters.play.setChecked(False)
         self.start.show_way_back(None if shape is None else shape.name)
+        self.hover_label.clear()
         self.pages.setCurrentWidget(self.start)
         self.panels.show(False)
 
@@ -206,6 +212,9 @@ class MainWindow(QMainWindow):
         }
         for name, on in enabled.items():
             self.menus.actions[name].setEnabled(on)
+        for name, step in (("undo", self.session.undo_step), ("redo", self.session.redo_step)):
+            words = "" if step is None else words_of(step).replace("&", "&&")
+            self.menus.say(name, f"&{name.capitalize()}: {words}" if words else "")
 
     def _show_arrangement(self) -> None:
         self.menus.show_arrangement(self.session.state.arrangement)

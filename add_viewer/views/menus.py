@@ -10,6 +10,7 @@ from PySide6.QtWidgets import QMainWindow, QMenu
 
 from ..models.arrangement import Arrangement
 from ..models.display import Display
+from .action_tour import plain
 from .icons import icon
 from .theme import Theme
 
@@ -50,7 +51,7 @@ FILE = (
     ),
     Entry("curves", "&Export curves…", "Ctrl+E", "mdi6.chart-line", "Save the curves as PNG, SVG, PDF or CSV"),
     Entry("", ""),
-    Entry("close", "&Close shape", "Ctrl+W", "mdi6.close", "Close the shown shape"),
+    Entry("close", "&Close shape", "Ctrl+W", "mdi6.close", "Close the source: the shape in bold in the list"),
     Entry("quit", "&Quit", "Ctrl+Q", "mdi6.exit-to-app"),
 )
 EDIT = (
@@ -144,6 +145,12 @@ class Menus:
         """Let action `name` call `do`."""
         self.actions[name].triggered.connect(lambda _checked=False: do())
 
+    def say(self, name: str, text: str) -> None:
+        """Let an action's words tell what it would do now; "" brings back those that it has always."""
+        entry = _BY_NAME[name]
+        self.actions[name].setText(text or entry.text)
+        self.actions[name].setToolTip(_tool_tip(entry, text or entry.text))
+
     def _menu(self, menu: QMenu, entries: tuple[Entry, ...]) -> QMenu:
         for entry in entries:
             if not entry.name:
@@ -216,9 +223,8 @@ class Menus:
         action = QAction(entry.text, self._window)
         if entry.key:
             action.setShortcuts(QKeySequence.listFromString(entry.key))
-        words = entry.text.replace("&", "").rstrip("…")
-        key = f" ({entry.key.replace('; ', ', ')})" if entry.key else ""
-        action.setToolTip(f"{words}{key}" + (f"\n{entry.help}" if entry.help else ""))
+        action.setData(entry.text)
+        action.setToolTip(_tool_tip(entry, entry.text))
         if entry.icon:
             self._icons.append((action, entry.icon))
         self.actions[entry.name] = action
@@ -236,3 +242,13 @@ class Menus:
         """Icons in the theme's text colour."""
         for action, name in self._icons:
             action.setIcon(icon(name, theme.text))
+
+
+_BY_NAME = {
+    entry.name: entry for entry in (*FILE, *EDIT, *LOOKS, *TOOLS, *HELP, *FIELDS, *SWITCHES, *ARRANGING) if entry.name
+}
+
+
+def _tool_tip(entry: Entry, text: str) -> str:
+    key = f" ({entry.key.replace('; ', ', ')})" if entry.key else ""
+    return f"{plain(text)}{key}" + (f"\n{entry.help}" if entry.help else "")

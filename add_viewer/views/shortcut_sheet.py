@@ -21,7 +21,7 @@ from .action_tour import tour
 from .theme import GRID
 
 Rows = list[tuple[str, str]]
-_KEYS = 13 * GRID
+_KEYS = int(14.5 * GRID)
 """Width of the column of keys: words begin at one line in every group."""
 _COLUMN = 48 * GRID
 
@@ -41,6 +41,14 @@ GESTURES: dict[str, tuple[tuple[str, str], ...]] = {
         ("Ctrl + drag", "Snap θ to 15°, on the dial"),
         ("Drag in a curve", "Turn θ, or move t"),
     ),
+    "Keys in the list of shapes": (
+        ("↑ ↓", "Another line"),
+        ("Enter", "Make it the source"),
+        ("Space", "Show or hide it"),
+        ("Alt + ↑ ↓", "Move it up or down"),
+        ("Delete", "Close it"),
+        ("Shift + F10", "Wireframe, point size and more"),
+    ),
     "Keys in the controls": (
         ("← →", "A step; with Ctrl on the dial 15°"),
         ("Page ↑ ↓", "A larger step"),
@@ -54,7 +62,7 @@ def keyboard(window: QMainWindow) -> dict[str, Rows]:
     groups: dict[str, Rows] = {}
     for stop in tour(window.menuBar()):
         if stop.keys:
-            groups.setdefault(stop.menu, []).append((" or ".join(stop.keys), stop.title))
+            groups.setdefault(stop.menu, []).append((" or ".join(stop.keys), stop.name))
     return groups
 
 

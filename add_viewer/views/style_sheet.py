@@ -39,7 +39,7 @@ QAbstractSpinBox { min-height: 24px; }
 QPushButton, QToolButton { background: $panel; border: 1px solid $line; border-radius: 4px;
     padding: 4px 10px; min-height: 18px; }
 QToolButton { padding: 4px; }
-QToolButton:disabled, QPushButton:disabled { color: $muted; }
+QToolButton:disabled, QPushButton:disabled { color: $muted; background: transparent; }
 QToolButton[link="true"] { border: none; background: transparent; color: $accent; padding: 1px 0; min-height: 16px; }
 QToolButton[link="true"]:hover, QToolButton[link="true"]:focus { text-decoration: underline; }
 QPushButton[choice="true"] { text-align: left; padding: 4px 8px; }
@@ -53,6 +53,7 @@ QToolButton:focus { border: 2px solid $accent; padding: 3px; }
 QToolButton[link="true"]:focus { border: none; padding: 1px 0; }
 QPushButton[primary="true"] { background: $accent; color: $on_accent; border-color: $accent;
     font-weight: 600; padding: 6px 16px; }
+QPushButton[primary="true"]:disabled { background: $line; color: $muted; border-color: $line; }
 QPushButton[primary="true"]:focus { border: 2px solid $text; padding: 5px 15px; }
 QToolTip { background: $panel; color: $text; border: 1px solid $line; padding: 4px; }
 QLabel[role="muted"] { color: $muted; }
@@ -61,6 +62,7 @@ QLabel[role="key"] { color: $text; background: $field; border: 1px solid $line; 
 ShapeList::item { padding: 4px 4px; border: 1px solid transparent; border-radius: 4px; color: $text; }
 ShapeList::item:hover { background: $field; }
 ShapeList::item:selected { background: $field; border: 1px solid $line; color: $text; }
+ShapeList::item:selected:focus { border: 2px solid $accent; padding: 3px 3px; }
 ShapeList::indicator { width: 11px; height: 11px; border: 1px solid $muted; border-radius: 3px; background: $field; }
 ShapeList::indicator:checked { background: $accent; border-color: $accent; image: url("$tick"); }
 QScrollArea, QListView { border: none; background: transparent; }
