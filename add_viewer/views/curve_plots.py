@@ -134,7 +134,8 @@ class CurvePlots:
     def _theta_lines(self, scene: CurveScene, curves: AutodiffusionCurves) -> list[tuple[Axes, Artist]]:
         colour, style = MARKERS[curves.pick.slot], ":" if curves.pick.is_mirror else "-"
         lines: list[tuple[Axes, Artist]] = []
-        looks = {1.0: (2.0, 1.0)} | {factor: (width, 0.55) for factor, width, _ in OTHER_TIMES}
+        faded = 0.55 if scene.theme.name == "light" else 0.8  # thin lines sink into a dark ground
+        looks = {1.0: (2.0, 1.0)} | {factor: (width, faded) for factor, width, _ in OTHER_TIMES}
         for factor in _factors(scene):
             width, alpha = looks[factor]
             values = over_theta(curves, scene.reach * factor)

@@ -62,6 +62,7 @@ class FieldChooser(QWidget):
             grid.addWidget(button, row, 1)
         self.close_button.setProperty("quiet", True)
         self.close_button.setToolTip("One field again")
+        self.close_button.setAccessibleName("Leave the second field")
         self.close_button.setFixedWidth(3 * GRID)
         grid.addWidget(self.close_button, 1, 2)
         grid.setColumnStretch(1, 1)

@@ -34,11 +34,12 @@ from .menus import Menus
 from .message_bar import MessageBar
 from .panels import Panels
 from .parameter_panel import ParameterPanel
+from .reading_order import go
 from .scene import SceneView
 from .settings import Settings
 from .shape_view import IDLE_TEXT, ShapeView
 from .share_bar import ShareBar
-from .start_page import Gallery, StartPage
+from .start_page import Gallery, StartPage, title_of
 from .theme import GRID, apply_theme, theme_of
 
 TITLE = "Anisotropic Diffusion Descriptors"
@@ -254,7 +255,8 @@ class MainWindow(QMainWindow):
         menu = self.menus.recent
         menu.clear()
         for reference in references:
-            menu.addAction(reference).triggered.connect(lambda _checked, name=reference: self.open_requested.emit(name))
+            title = title_of(reference, self.start.galleries).replace("&", "&&")
+            menu.addAction(title).triggered.connect(lambda _checked, name=reference: self.open_requested.emit(name))
         menu.setEnabled(bool(references))
         if references:
             menu.addSeparator()
@@ -312,6 +314,9 @@ class MainWindow(QMainWindow):
     def context_menu(self, key: str, vertex: int) -> QMenu:
         """What makes sense at `vertex` of the shape `key`, or beside it (-1)."""
         return context_menu(self, self.session, self.menus.actions, key, vertex)
+
+    def focusNextPrevChild(self, forward: bool) -> bool:
+        return go(self, forward=forward)
 
     def dragEnterEvent(self, event: QDragEnterEvent) -> None:
         if any(url.isLocalFile() for url in event.mimeData().urls()):

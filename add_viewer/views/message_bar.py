@@ -30,14 +30,15 @@ class MessageBar(QFrame):
         self.text.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
         self.text.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
         self.close_button.setToolTip("Close this message")
+        self.close_button.setAccessibleName("Close this message")
         self.close_button.setProperty("quiet", True)
         self.close_button.clicked.connect(self.clear)
         layout = QHBoxLayout(self)
         layout.setContentsMargins(2 * GRID, GRID, GRID, GRID)
         layout.setSpacing(GRID)
-        layout.addWidget(self._icon)
+        layout.addWidget(self._icon, 0, Qt.AlignmentFlag.AlignTop)
         layout.addWidget(self.text, stretch=1)
-        layout.addWidget(self.close_button)
+        layout.addWidget(self.close_button, 0, Qt.AlignmentFlag.AlignTop)
         self.hide()
 
     def show_notice(self, notice: Notice) -> None:
@@ -77,4 +78,12 @@ def _listed(texts: list[str]) -> list[str]:
     """One line for each, the newest `MOST`; the tool tip has them in full."""
     more = len(texts) - MOST
     head = [f"{more} earlier {'message' if more == 1 else 'messages'}; point here to read all"] if more > 0 else []
-    return head + [f"• {text if len(text) <= LENGTH else text[: LENGTH - 1].rstrip() + '…'}" for text in texts[-MOST:]]
+    return head + [f"• {_cut(text)}" for text in texts[-MOST:]]
+
+
+def _cut(text: str) -> str:
+    """At most `LENGTH` letters, ending with a whole word if that is not much shorter."""
+    if len(text) <= LENGTH:
+        return text
+    head = text[: LENGTH - 2]
+    return f"{head.rsplit(' ', 1)[0] if ' ' in head[LENGTH // 2 :] else head} …"

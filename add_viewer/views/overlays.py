@@ -207,6 +207,18 @@ class AxesTriad(Overlay):
                 painter.drawText(box, Qt.AlignmentFlag.AlignCenter, "xyz"[index])
 
 
+class FocusFrame(Overlay):
+    """Shows that keys go to the view."""
+
+    def __init__(self, parent: QWidget) -> None:
+        super().__init__(parent, QSize(1, 1))
+        self.hide()
+
+    def draw(self, painter: QPainter) -> None:
+        painter.setPen(QPen(self.theme.colour("accent"), 2))
+        painter.drawRect(self.rect().adjusted(1, 1, -1, -1))
+
+
 class Hint(Overlay):
     """What to do next, or what is being done, where there is nothing to see yet; long words take several lines."""
 

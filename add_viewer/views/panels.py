@@ -7,7 +7,15 @@ from PySide6.QtWidgets import QDockWidget, QMainWindow, QMenu, QWidget
 
 from .dock_title import DockTitle
 from .focus_keys import FocusKeys
+from .reading_order import go
 from .theme import Theme
+
+
+class Panel(QDockWidget):
+    """A dock that Tab goes through as one reads it while it is a window of its own."""
+
+    def focusNextPrevChild(self, forward: bool) -> bool:
+        return go(self, forward=forward) if self.isFloating() else super().focusNextPrevChild(forward)
 
 
 class Panels:
@@ -54,7 +62,7 @@ class Panels:
             self._hidden = list(self._docks)
 
     def _made(self, title: str, widget: QWidget) -> QDockWidget:
-        dock = QDockWidget(title, self._window)
+        dock = Panel(title, self._window)
         dock.setObjectName(title)
         dock.setWidget(widget)
         dock.installEventFilter(self._keys)  # a floating one is a window of its own

@@ -43,6 +43,7 @@ class PickList(QWidget):
         self.field.setFixedWidth(11 * GRID)
         self.field.setPlaceholderText("none")
         self.clear_button.setToolTip("Clear the picked points (Esc)")
+        self.clear_button.setAccessibleName("Clear the picked points")
         self.clear_button.setProperty("quiet", True)
         self.clear_button.setFixedWidth(3 * GRID)
         top = QHBoxLayout()
@@ -98,6 +99,7 @@ class PickList(QWidget):
         chip.setIconSize(QSize(12, 12))
         mirror = f", mirror of {pick.mirror_of}" if pick.is_mirror else ""
         chip.setToolTip(f"Vertex {pick.vertex}{mirror}. Click to remove it.")
+        chip.setAccessibleName(f"Remove vertex {pick.vertex}{mirror}")
         chip.clicked.connect(lambda: self._session.unpick(pick.vertex))
         return chip
 

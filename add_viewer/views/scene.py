@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QPoint, QRect, Qt, Signal
+from PySide6.QtCore import QPoint, QRect, QSize, Qt, Signal
 from PySide6.QtGui import QAction, QImage, QPainter, QResizeEvent
 from PySide6.QtWidgets import QGridLayout, QWidget
 
@@ -165,12 +165,12 @@ class SceneView(QWidget):
         self._place_tools()
 
     def _place_tools(self) -> None:
-        """In a row beside the name of the view in that corner, or upright where the name needs the room."""
+        """In a row beside the name of the view in that corner, or in two columns where the name needs the room."""
         corner = self.views[min(self._columns(self._used), self._used) - 1]
-        upright = self._used > 1 and self.width() / self._columns(self._used) < self._tools.extent + _NAME
-        self._tools.place(upright=upright)
+        narrow = self._used > 1 and self.width() / self._columns(self._used) < self._tools.extent + _NAME
+        self._tools.place(narrow=narrow)
         for view in self.views:
-            view.leave_right(self._tools.width() + GRID if view is corner else 0)
+            view.leave_corner(self._tools.size() if view is corner else QSize())
 
     def picture(self, scale: float, *, transparent: bool = False, labels: bool = True) -> QImage:
         """All views as they stand, at `scale` times their size."""

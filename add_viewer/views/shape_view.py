@@ -17,7 +17,7 @@ from ..models.results import Results
 from ..models.session import Session
 from ..models.shapes import OpenShape
 from .canvas import Canvas
-from .overlays import AxesTriad, ColourBar, CornerLabel, Hint, Overlay
+from .overlays import AxesTriad, ColourBar, CornerLabel, FocusFrame, Hint, Overlay
 from .theme import GRID, LIGHT, Theme
 
 IDLE_TEXT = "Click picks a point · drag turns · wheel zooms · right click for more"
@@ -43,14 +43,14 @@ class ShapeView(QWidget):
         self.panel = 0
         self._shown: OpenShape | None = None
         self._theme = LIGHT
-        self._room_right = 0
+        self._tools = QSize()
         self.canvas = Canvas(self)
         layout = QVBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
         layout.addWidget(self.canvas)
         self.colour_bar, self.label = ColourBar(self), CornerLabel(self)
-        self.triad, self.hint = AxesTriad(self), Hint(self)
-        self._overlays: tuple[Overlay, ...] = (self.colour_bar, self.label, self.triad, self.hint)
+        self.triad, self.hint, self.frame = AxesTriad(self), Hint(self), FocusFrame(self)
+        self._overlays: tuple[Overlay, ...] = (self.colour_bar, self.label, self.triad, self.hint, self.frame)
         self._connect()
         self._smooth()
 
@@ -62,6 +62,7 @@ class ShapeView(QWidget):
             lambda place, vertex: self.menu_requested.emit(place, self.key or "", vertex)
         )
         self.canvas.camera_moved.connect(self._show_axes)
+        self.canvas.reached.connect(self.frame.setVisible)
         for signal in (session.picks_changed, session.active_changed, results.carried_changed):
             signal.connect(self._show_picks)
         session.field_changed.connect(self._show_hint)
@@ -203,9 +204,9 @@ class ShapeView(QWidget):
         for overlay in self._overlays:
             overlay.show_theme(theme)
 
-    def leave_right(self, pixels: int) -> None:
-        """Keep so much room free beside the name, for buttons in the upper right corner."""
-        self._room_right = pixels
+    def leave_corner(self, size: QSize) -> None:
+        """Keep the upper right corner free for buttons of this size, beside the name."""
+        self._tools = size
         self._place_labels()
 
     def show_as_source(self, on: bool) -> None:
@@ -230,10 +231,15 @@ class ShapeView(QWidget):
         name = f"{self._shown.name}: " if self._shown is not None and len(self._session.state.shown) > 1 else ""
         self.hovered.emit(f"{name}Vertex {vertex}   {reading}".rstrip())
 
+    @property
+    def _room_right(self) -> int:
+        return 0 if self._tools.isEmpty() else self._tools.width() + GRID
+
     # -- layout and pictures ------------------------------------------------------------------------------------------
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         super().resizeEvent(event)
+        self.frame.setFixedSize(self.size())
         self._place_labels()
 
     def _place_labels(self) -> None:
@@ -256,7 +262,7 @@ class ShapeView(QWidget):
         """Keep the fitted shape clear of name and buttons, and of the bar below it; of small views, all do alike."""
         gap, small = 2 * GRID, self.colour_bar.is_small
         name = QRect(self.label.pos(), QSize(self.width() if small else self.label.reach, self.label.height()))
-        tools = QRect(self.width() - gap - self._room_right, gap, self._room_right, 4 * GRID)
+        tools = QRect(self.width() - gap - self._room_right, gap, self._room_right, max(self._tools.height(), 0))
         self.canvas.leave_room((name, tools), self.colour_bar.height() if small else 0)
 
     def picture(self, scale: float, *, transparent: bool = False, labels: bool = True) -> QImage:

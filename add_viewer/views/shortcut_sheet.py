@@ -36,6 +36,10 @@ GESTURES: dict[str, tuple[tuple[str, str], ...]] = {
         ("Wheel", "Come closer (or right drag)"),
         ("Drop a file", "Open it"),
     ),
+    "Keys on the shape": (
+        ("← → ↑ ↓", "Turn it by 15°; with Shift move it"),
+        ("+ −", "Come closer, go away"),
+    ),
     "Mouse on the controls": (
         ("Double click", "Back to the default, on sliders and dial"),
         ("Ctrl + drag", "Snap θ to 15°, on the dial"),

@@ -39,6 +39,15 @@ class Gallery:
     shapes: tuple[str, ...]
 
 
+def title_of(reference: str, galleries: tuple[Gallery, ...]) -> str:
+    """What the person knows it by: a shipped shape's name, a file's path."""
+    name, _, number = reference.partition("/")
+    for gallery in galleries:
+        if gallery.name == name and number.isdecimal() and int(number) < len(gallery.shapes):
+            return _capital(gallery.shapes[int(number)])
+    return reference
+
+
 class StartPage(QWidget):
     """The shipped shapes as pictures, recent files, and a place to drop one.
 
@@ -138,7 +147,7 @@ class StartPage(QWidget):
         sprites = QPixmap(str(_SPRITES / f"{gallery.name}.png"))
         self.list.clear()
         for number, name in enumerate(gallery.shapes):
-            item = QListWidgetItem(_thumbnail(sprites, number), name[:1].upper() + name[1:])
+            item = QListWidgetItem(_thumbnail(sprites, number), _capital(name))
             item.setData(Qt.ItemDataRole.UserRole, f"{gallery.name}/{number}")
             item.setToolTip(f"Open {name} ({gallery.name}/{number})")
             item.setTextAlignment(Qt.AlignmentFlag.AlignHCenter | Qt.AlignmentFlag.AlignTop)
@@ -163,8 +172,8 @@ class StartPage(QWidget):
 
     def _recent_button(self, reference: str) -> QToolButton:
         button = QToolButton()
-        button.setProperty("quiet", True)
-        text = reference if "/" not in reference or not reference.startswith("/") else Path(reference).name
+        button.setProperty("recent", True)
+        text = Path(reference).name if reference.startswith("/") else title_of(reference, self.galleries)
         button.setText(button.fontMetrics().elidedText(text, Qt.TextElideMode.ElideMiddle, 29 * GRID))
         button.setToolTip(reference)
         button.setCursor(Qt.CursorShape.PointingHandCursor)
@@ -178,6 +187,10 @@ class StartPage(QWidget):
         self._drop.setStyleSheet(
             f"border: 1px dashed {theme.muted}; border-radius: 8px; padding: 16px; color: {theme.muted};"
         )
+
+
+def _capital(name: str) -> str:
+    return name[:1].upper() + name[1:]
 
 
 def _thumbnail(sprites: QPixmap, number: int) -> QIcon:

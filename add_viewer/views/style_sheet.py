@@ -1,4 +1,4 @@
-"""The style sheet of every window: $names stand for the colours of the theme, $tick for the file of its tick."""
+"""The style sheet of every window: $names stand for the colours of the theme, $tick, $up and $down for files of its icons."""
 
 from __future__ import annotations
 
@@ -34,8 +34,18 @@ QStatusBar::item { border: none; }
 QLineEdit { background: $field; border: 1px solid $line; border-radius: 4px; padding: 3px 6px;
     min-height: 18px; selection-background-color: $accent; selection-color: $on_accent; }
 QLineEdit:focus { border: 1px solid $accent; }
-QComboBox { min-height: 22px; }
-QAbstractSpinBox { min-height: 24px; }
+QComboBox, QAbstractSpinBox { background: $panel; border: 1px solid $line; border-radius: 4px; padding: 3px 8px;
+    min-height: 20px; selection-background-color: $accent; selection-color: $on_accent; }
+QAbstractSpinBox { background: $field; }
+QComboBox:hover, QAbstractSpinBox:hover { border-color: $muted; }
+QComboBox:focus, QAbstractSpinBox:focus { border: 2px solid $accent; padding: 2px 7px; }
+QComboBox:disabled, QAbstractSpinBox:disabled { color: $muted; background: transparent; }
+QComboBox::drop-down { border: none; width: 20px; }
+QComboBox::down-arrow { image: url("$down"); width: 12px; height: 12px; }
+QComboBox QAbstractItemView { background: $panel; border: 1px solid $line; padding: 4px; outline: none; }
+QAbstractSpinBox::up-button, QAbstractSpinBox::down-button { border: none; background: transparent; width: 18px; }
+QAbstractSpinBox::up-arrow { image: url("$up"); width: 10px; height: 10px; }
+QAbstractSpinBox::down-arrow { image: url("$down"); width: 10px; height: 10px; }
 QPushButton, QToolButton { background: $panel; border: 1px solid $line; border-radius: 4px;
     padding: 4px 10px; min-height: 18px; }
 QToolButton { padding: 4px; }
@@ -44,12 +54,15 @@ QToolButton[link="true"] { border: none; background: transparent; color: $accent
 QToolButton[link="true"]:hover, QToolButton[link="true"]:focus { text-decoration: underline; }
 QPushButton[choice="true"] { text-align: left; padding: 4px 8px; }
 QToolButton[quiet="true"] { border: 1px solid transparent; background: transparent; }
+QToolButton[recent="true"] { border: 1px solid transparent; background: transparent; padding: 4px 0; }
 QPushButton:hover, QToolButton:hover { border-color: $muted; }
 QPushButton:pressed, QToolButton:pressed, QToolButton:checked, QPushButton:checked { border-color: $accent;
     color: $accent; }
 QPushButton:focus { border: 2px solid $accent; padding: 3px 9px; }
 QPushButton[choice="true"]:focus { padding: 3px 7px; }
 QToolButton:focus { border: 2px solid $accent; padding: 3px; }
+QToolButton[recent="true"]:hover { color: $accent; border-color: transparent; }
+QToolButton[recent="true"]:focus { border: none; padding: 5px 1px; color: $accent; text-decoration: underline; }
 QToolButton[link="true"]:focus { border: none; padding: 1px 0; }
 QPushButton[primary="true"] { background: $accent; color: $on_accent; border-color: $accent;
     font-weight: 600; padding: 6px 16px; }

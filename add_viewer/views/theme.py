@@ -84,8 +84,8 @@ def apply_theme(theme: Theme) -> None:
     assert isinstance(app, QApplication)
     app.setStyle("Fusion")
     app.setPalette(_palette(theme))
-    tick = (_ICONS / f"tick-{theme.name}.svg").as_posix()
-    app.setStyleSheet(STYLE_SHEET.substitute(asdict(theme), tick=tick))
+    icons = {name: (_ICONS / f"{name}-{theme.name}.svg").as_posix() for name in ("tick", "up", "down")}
+    app.setStyleSheet(STYLE_SHEET.substitute(asdict(theme), **icons))
 
 
 def round_pen(colour: QColor, width: float) -> QPen:

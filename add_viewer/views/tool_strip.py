@@ -1,10 +1,10 @@
-"""A few actions as icons in a corner of the views, side by side or one below the other."""
+"""A few actions as icons in a corner of the views, in a row or in two columns."""
 
 from __future__ import annotations
 
 from PySide6.QtCore import QSize, Qt
 from PySide6.QtGui import QAction
-from PySide6.QtWidgets import QBoxLayout, QToolButton, QWidget
+from PySide6.QtWidgets import QGridLayout, QToolButton, QWidget
 
 from .theme import GRID
 
@@ -12,14 +12,15 @@ _SIDE, _GAP = 30, GRID // 2
 
 
 class ToolStrip(QWidget):
-    """Buttons for actions, in the upper right corner of its parent. extent : its longer side in pixels."""
+    """Buttons for actions, in the upper right corner of its parent. extent : width of its row in pixels."""
 
     def __init__(self, parent: QWidget) -> None:
         super().__init__(parent)
         self.extent = 0
-        self._row = QBoxLayout(QBoxLayout.Direction.LeftToRight, self)
-        self._row.setContentsMargins(0, 0, 0, 0)
-        self._row.setSpacing(_GAP)
+        self._buttons: list[QToolButton] = []
+        self._grid = QGridLayout(self)
+        self._grid.setContentsMargins(0, 0, 0, 0)
+        self._grid.setSpacing(_GAP)
 
     def show_actions(self, actions: list[QAction]) -> None:
         """Offer these actions."""
@@ -29,16 +30,21 @@ class ToolStrip(QWidget):
             button.setIconSize(QSize(18, 18))
             button.setFixedSize(_SIDE, _SIDE)
             button.setFocusPolicy(Qt.FocusPolicy.NoFocus)
-            self._row.addWidget(button)
-        self.extent = len(actions) * (_SIDE + _GAP) - _GAP
-        self.place(upright=False)
+            self._buttons.append(button)
+        self.extent = _length(len(actions))
+        self.place(narrow=False)
 
-    def place(self, *, upright: bool) -> None:
-        """Stand in the corner, upright where there is no room for a row."""
-        direction = QBoxLayout.Direction.TopToBottom if upright else QBoxLayout.Direction.LeftToRight
-        self._row.setDirection(direction)
-        self.setFixedSize(QSize(_SIDE, self.extent) if upright else QSize(self.extent, _SIDE))
+    def place(self, *, narrow: bool) -> None:
+        """Stand in the corner, in two columns where there is no room for a row."""
+        columns = 2 if narrow else max(len(self._buttons), 1)
+        for number, button in enumerate(self._buttons):
+            self._grid.addWidget(button, number // columns, number % columns)
+        self.setFixedSize(QSize(_length(columns), _length(-(-len(self._buttons) // columns))))
         room = self.parentWidget()
         assert room is not None
         self.move(room.width() - self.width() - 2 * GRID, 2 * GRID)
         self.raise_()
+
+
+def _length(count: int) -> int:
+    return max(count, 1) * (_SIDE + _GAP) - _GAP

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 from PySide6.QtCore import QEvent, QPoint, QPointF, QRect, Qt, Signal
-from PySide6.QtGui import QMouseEvent, QResizeEvent, QWheelEvent
+from PySide6.QtGui import QFocusEvent, QKeyEvent, QMouseEvent, QResizeEvent, QWheelEvent
 from PySide6.QtWidgets import QApplication
 
 from .camera import VIEW_ANGLE, OrbitCamera
@@ -17,13 +17,23 @@ FloatArray = NDArray[np.float64]
 
 VIEWS = {"front": (0.0, 0.0), "back": (180.0, 0.0), "left": (90.0, 0.0), "right": (-90.0, 0.0), "top": (0.0, 89.0)}
 
+_ARROWS = {
+    Qt.Key.Key_Left: (-1.0, 0.0),
+    Qt.Key.Key_Right: (1.0, 0.0),
+    Qt.Key.Key_Up: (0.0, 1.0),
+    Qt.Key.Key_Down: (0.0, -1.0),
+}
+"""Where an arrow moves what is seen: right and up."""
+_ZOOMS = {Qt.Key.Key_Plus: 1.15, Qt.Key.Key_Equal: 1.15, Qt.Key.Key_Minus: 1 / 1.15}
+
 
 class OrbitView(View3D):
-    """Moves its camera as the mouse says, and tells what a person points at. Subclasses say what is there.
+    """Moves its camera as mouse and keys say, and tells what a person points at. Subclasses say what is there.
 
     vertex_hovered : the vertex under the cursor or -1. vertex_clicked : vertex (-1 beside the shape) and modifier keys.
     menu_requested : global place and vertex or -1. camera_moved : the picture's axes turned.
     steered : the person moved the camera, by this method of `OrbitCamera` with these arguments.
+    reached : whether the keyboard came here by the Tab key.
     """
 
     vertex_hovered = Signal(int)
@@ -32,6 +42,7 @@ class OrbitView(View3D):
     camera_moved = Signal()
     steered = Signal(str, tuple)
     painted = Signal()
+    reached = Signal(bool)
 
     def __init__(self, parent: Any = None) -> None:
         super().__init__(parent)
@@ -126,7 +137,25 @@ class OrbitView(View3D):
         self.camera_moved.emit()
         self.draw_moving()
 
-    # -- mouse --------------------------------------------------------------------------------------------------------
+    # -- mouse and keys ------------------------------------------------------------------------------------------------
+
+    def focusInEvent(self, event: QFocusEvent) -> None:
+        super().focusInEvent(event)
+        self.reached.emit(event.reason() in (Qt.FocusReason.TabFocusReason, Qt.FocusReason.BacktabFocusReason))
+
+    def focusOutEvent(self, event: QFocusEvent) -> None:
+        super().focusOutEvent(event)
+        self.reached.emit(False)
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        pans = bool(event.modifiers() & Qt.KeyboardModifier.ShiftModifier)
+        if event.key() in _ARROWS:
+            x, y = _ARROWS[Qt.Key(event.key())]
+            self._steer_by_hand("pan" if pans else "rotate", *((0.05 * x, 0.05 * y) if pans else (15.0 * x, -15.0 * y)))
+        elif event.key() in _ZOOMS:
+            self._steer_by_hand("zoom", _ZOOMS[Qt.Key(event.key())], 0.0, 0.0)
+        else:
+            super().keyPressEvent(event)
 
     def mousePressEvent(self, event: QMouseEvent) -> None:
         self._pressed = self._last = event.position()
