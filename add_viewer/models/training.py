@@ -159,6 +159,7 @@ def problem_of_data(data: str) -> str:
     try:
         count = len(open_collection(folder))
     except (AddError, OSError) as error:
-        return str(error)
+        reason = str(error).partition(". ")[0].rstrip(".")  # what follows tells of data to download
+        return f"{reason}. Choose a folder that holds at least four shapes."
     few = f"{folder.name} holds {count} {'shape' if count == 1 else 'shapes'}, but a training needs at least {FEWEST}."
     return few if count < FEWEST else ""

@@ -24,6 +24,8 @@ from add_core.drawing.colours import hex_colour, theta_colour
 from .theme import round_pen
 
 SNAP = radians(15.0)
+_ABOVE, _BELOW = 26.0, 10.0
+"""Room around the plane: for "90°" above, and for the ring of hues alone below."""
 _KEYS = {
     Qt.Key.Key_Left: 1.0,
     Qt.Key.Key_Up: 1.0,
@@ -54,7 +56,7 @@ class ThetaDial(QWidget):
         self.setAccessibleName("Direction θ dial")
 
     def sizeHint(self) -> QSize:
-        return QSize(264, 184)
+        return QSize(264, 168)
 
     def show_theta(self, theta: float) -> None:
         """Turn the pointer without announcing it."""
@@ -68,11 +70,11 @@ class ThetaDial(QWidget):
 
     @property
     def _centre(self) -> QPointF:
-        return QPointF(self.width() / 2, self.height() / 2)
+        return QPointF(self.width() / 2, self.height() / 2 + 0.5 * (_ABOVE - _BELOW))
 
     @property
     def _radius(self) -> float:
-        return min(self.width(), self.height()) / 2 - 26.0
+        return min(self.width() / 2 - _ABOVE, 0.5 * (self.height() - _ABOVE - _BELOW))
 
     def _turn(self, theta: float) -> None:
         self.turned.emit(theta % pi)

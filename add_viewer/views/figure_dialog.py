@@ -21,7 +21,7 @@ from PySide6.QtWidgets import (
 )
 
 from .figure_page import PageChoice
-from .forms import form_of
+from .forms import ROW, form_of
 from .theme import GRID
 
 WIDTHS = {85.0: "85 mm, one column", 120.0: "120 mm", 180.0: "180 mm, two columns", 254.0: "254 mm, a slide"}
@@ -64,6 +64,7 @@ class FigureDialog(QDialog):
         for switch in (self.names, self.bars, self.curves):
             switch.setChecked(True)
             switch.toggled.connect(self._changed)
+            switch.setMinimumHeight(ROW)
         self.curves.setToolTip("At the picked points; they need a width of 140 mm.")
         buttons = QDialogButtonBox(QDialogButtonBox.StandardButton.Save | QDialogButtonBox.StandardButton.Cancel)
         buttons.button(QDialogButtonBox.StandardButton.Save).setText("Save…")

@@ -11,7 +11,7 @@ from ..models.display import Display
 from ..models.results import Results
 from ..models.session import Session
 from .shape_view import ShapeView
-from .theme import GRID, LIGHT, Theme
+from .theme import LIGHT, Theme
 from .tool_strip import ToolStrip
 
 _NAME = 180

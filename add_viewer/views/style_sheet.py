@@ -1,4 +1,4 @@
-"""The style sheet of every window: $names stand for the colours of the theme, $tick, $up and $down for files of its icons."""
+"""The style sheet of every window: $names stand for colours of the theme; $tick, $up, $down for files of its icons."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ QTabBar::tab { background: transparent; border: none; border-top: 2px solid tran
     color: $muted; }
 QTabBar::tab:selected { color: $text; border-top-color: $accent; }
 QTabBar::tab:hover { color: $text; }
+QTabBar::tab:selected:focus { border: 2px solid $accent; border-radius: 4px; padding: 4px 10px 3px 10px; }
 QMenuBar { background: $window; padding: 2px 4px; border-bottom: 1px solid $line; }
 QMenuBar::item { padding: 4px 8px; border-radius: 4px; background: transparent; }
 QMenuBar::item:selected, QMenu::item:selected { background: $accent; color: $on_accent; }
@@ -37,6 +38,7 @@ QLineEdit:focus { border: 1px solid $accent; }
 QComboBox, QAbstractSpinBox { background: $panel; border: 1px solid $line; border-radius: 4px; padding: 3px 8px;
     min-height: 20px; selection-background-color: $accent; selection-color: $on_accent; }
 QAbstractSpinBox { background: $field; }
+QAbstractSpinBox QLineEdit { border: none; background: transparent; padding: 0 4px; }
 QComboBox:hover, QAbstractSpinBox:hover { border-color: $muted; }
 QComboBox:focus, QAbstractSpinBox:focus { border: 2px solid $accent; padding: 2px 7px; }
 QComboBox:disabled, QAbstractSpinBox:disabled { color: $muted; background: transparent; }

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from math import log10
 
-from PySide6.QtCore import QPointF, QRectF, QSize, Qt, Signal
-from PySide6.QtGui import QColor, QFont, QMouseEvent, QPainter, QPaintEvent, QPen
+from PySide6.QtCore import QEvent, QPointF, QRectF, QSize, Qt, Signal
+from PySide6.QtGui import QColor, QFont, QKeyEvent, QMouseEvent, QPainter, QPaintEvent, QPen
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from add_core.drawing.colour_maps import distance_map
@@ -17,11 +17,14 @@ from .theme import GRID, LIGHT, Theme
 
 _ROW, _LABEL, _NUMBER, _SCALE = 3 * GRID, 12 * GRID, 7 * GRID, 3 * GRID
 
+_PRESSES = (Qt.Key.Key_Return, Qt.Key.Key_Enter, Qt.Key.Key_Space)
+
 
 class TellingBars(QWidget):
     """One row a descriptor, from 0 (mistaken for its mirror image) to 1 (as far apart as any two points).
 
-    wanted : the person clicks a descriptor that is not computed yet. chosen : or one that is.
+    wanted : the person clicks a descriptor that is not computed yet. chosen : or one that is. With the keyboard, arrows
+    go to a row, and Enter or Space is the click.
     """
 
     wanted = Signal(str)
@@ -30,6 +33,9 @@ class TellingBars(QWidget):
     def __init__(self) -> None:
         super().__init__()
         self._tellings: tuple[Telling, ...] = ()
+        self._row = 0
+        self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
+        self.setAccessibleName("How far descriptors tell left from right")
         self._theme = LIGHT
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
         self.setCursor(Qt.CursorShape.PointingHandCursor)
@@ -54,9 +60,27 @@ class TellingBars(QWidget):
         return QPointF(self.width() / 2, (row + 0.5) * _ROW)
 
     def mousePressEvent(self, event: QMouseEvent) -> None:
-        row = int(event.position().y() // _ROW)
+        self._press(int(event.position().y() // _ROW))
+
+    def event(self, event: QEvent) -> bool:
+        if event.type() == QEvent.Type.ShortcutOverride and isinstance(event, QKeyEvent) and event.key() in _PRESSES:
+            event.accept()  # Space plays elsewhere
+            return True
+        return super().event(event)
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        steps = {Qt.Key.Key_Up: -1, Qt.Key.Key_Down: 1}
+        if event.key() in steps:
+            self._row = min(max(self._row + steps[Qt.Key(event.key())], 0), max(len(self._tellings) - 1, 0))
+            self.update()
+        elif event.key() in _PRESSES:
+            self._press(self._row)
+        else:
+            super().keyPressEvent(event)
+
+    def _press(self, row: int) -> None:
         if 0 <= row < len(self._tellings):
-            telling = self._tellings[row]
+            self._row, telling = row, self._tellings[row]
             known = telling.ratio is not None or telling.message.startswith("Pick")
             (self.chosen if known else self.wanted).emit(telling.descriptor)
 
@@ -69,6 +93,11 @@ class TellingBars(QWidget):
         for row, telling in enumerate(self._tellings):
             self._paint_row(painter, QRectF(0, row * _ROW, self.width(), _ROW), telling)
         self._paint_scale(painter, _ROW * len(self._tellings))
+        if self.hasFocus() and self._tellings:
+            painter.setBrush(Qt.BrushStyle.NoBrush)
+            painter.setPen(QPen(self._theme.colour("accent"), 2))
+            row = min(self._row, len(self._tellings) - 1)
+            painter.drawRoundedRect(QRectF(1, row * _ROW + 1, self.width() - 2, _ROW - 2), 4, 4)
 
     def _track(self, y: float) -> QRectF:
         return QRectF(_LABEL, y - 5, self.width() - _LABEL - _NUMBER - GRID, 10)

@@ -228,8 +228,6 @@ class TrainingForm(QDialog):
         self._show_help(DATA[shipped])
         problem = problem_of_data(request.data)
         self.start_button.setEnabled(not problem)
-        self.start_button.setProperty("primary", not problem)
-        self.start_button.style().polish(self.start_button)
         self._show_problem(problem if request.data else "")
 
     def _show_problem(self, problem: str) -> None:

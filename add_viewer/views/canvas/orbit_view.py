@@ -77,16 +77,16 @@ class OrbitView(View3D):
         if points is not None:
             width, height = max(self.width(), 1), max(self.height(), 1)
             below = min(self._below / height, 0.3)
-            self.camera_model.fit(points, width / height, 0.0, below)
-            if self._reaches_corners(points):
-                above = max(corner.bottom() for corner in self._corners) / height
-                self.camera_model.fit(points, width / height, min(above, 0.3), below)
+            for above in (0, *sorted(corner.bottom() for corner in self._corners)):
+                self.camera_model.fit(points, width / height, min(above / height, 0.3), below)
+                if not self._reaches_corners(points):
+                    break
         self._fitted = True
         self._place_camera()
 
     def leave_room(self, corners: tuple[QRect, ...], below: int) -> None:
-        """Where the view is fitted to the shape, keep so many pixels free below it, and stay under the labels at the
-        upper `corners` if it would reach them."""
+        """Where the view is fitted to the shape, keep so many pixels free below it, and stay under those labels at
+        the upper `corners` that it would reach."""
         if (corners, below) != (self._corners, self._below):
             self._corners, self._below = corners, below
             if self._fitted:

@@ -55,6 +55,36 @@ def test_a_primary_button_shows_that_it_has_the_focus(theme, qtbot):
     assert button.size() == size
 
 
+def test_a_primary_button_that_is_off_looks_so_and_can_be_read(theme, qtbot):
+    from PySide6.QtWidgets import QPushButton
+
+    button = QPushButton("Start training")
+    qtbot.addWidget(button)
+    button.setProperty("primary", True)
+    button.ensurePolished()
+    on = share(button, theme.accent)
+    button.setEnabled(False)
+    assert share(button, theme.accent) < 0.01 < 0.5 < on
+    assert share(button, theme.line) > 0.5
+    assert contrast(theme.muted, theme.line) > 3.0
+
+
+def contrast(one, two):
+    """Of two colours as WCAG measures it."""
+    from PySide6.QtGui import QColor
+
+    def light(colour):
+        channels = np.array(QColor(colour).getRgbF()[:3])
+        return np.where(channels <= 0.04045, channels / 12.92, ((channels + 0.055) / 1.055) ** 2.4) @ [
+            0.2126,
+            0.7152,
+            0.0722,
+        ]
+
+    low, high = sorted((light(one), light(two)))
+    return (high + 0.05) / (low + 0.05)
+
+
 def test_the_buttons_of_every_panel_have_names_of_their_own(assembly):
     from add_viewer.views.dock_title import DockTitle
 
