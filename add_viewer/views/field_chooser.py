@@ -53,7 +53,7 @@ class FieldChooser(QWidget):
         for row, (name, button, words) in enumerate(zip(_NAMES, self.buttons, _HELP, strict=True)):
             label = QLabel(name)
             label.setBuddy(button)
-            label.setFixedWidth(7 * GRID)
+            label.setFixedWidth(6 * GRID)
             label.setToolTip(words)
             button.setProperty("choice", True)
             button.setAccessibleName(name.replace("&", ""))

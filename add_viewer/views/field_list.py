@@ -26,10 +26,11 @@ class FieldList(SearchPopup):
             name="fieldList",
             prompt="Find a field: wks, curvature, mirror …",
             title="Find a field",
-            nothing="No field is called that.",
+            nothing="No field is called that. Try “curvature”, “distance”, or the name of a descriptor.",
             page=6,
         )
         self._entries: tuple[FieldEntry, ...] = ()
+        self._room = QSize()
 
     def open(self, entries: tuple[FieldEntry, ...], current: FieldChoice | None, beside: QWidget) -> None:
         """Offer `entries` next to a widget, with the line of `current` ready to be left by Enter."""
@@ -37,11 +38,17 @@ class FieldList(SearchPopup):
         corner = beside.mapTo(self._window, QPoint(0, beside.height() + GRID // 2))
         width = min(WIDTH, self._window.width() - 2 * GRID)
         height = min(70 * GRID, max(30 * GRID, self._window.height() - corner.y() - 4 * GRID))
-        self.setFixedSize(width, height)
+        self._room = QSize(width, height)
         x = min(corner.x(), self._window.width() - width - GRID)
         self.move(x, min(corner.y(), self._window.height() - height - GRID))
         self.begin()
         self._go_to(current)
+
+    def fit(self) -> None:
+        lines = sum(self.list.sizeHintForRow(row) for row in range(self.list.count()))
+        words = 0 if lines else self._nothing.sizeHint().height()
+        wanted = self.field.sizeHint().height() + lines + words + 4 * GRID
+        self.setFixedSize(self._room.width(), min(wanted, self._room.height()))
 
     def found(self, query: str) -> list[QListWidgetItem]:
         lines, group = [], ""

@@ -58,7 +58,7 @@ class MatchingPanel(QWidget):
         grid.setHorizontalSpacing(GRID // 2)
         grid.setVerticalSpacing(GRID // 2)
         for row, (name, widget) in enumerate(((label, self.method), (self.descriptor_label, self.descriptor))):
-            name.setFixedWidth(7 * GRID)
+            name.setFixedWidth(6 * GRID)
             grid.addWidget(name, row, 0)
             grid.addWidget(widget, row, 1)
         grid.addWidget(self.refined, 2, 1)

@@ -17,7 +17,6 @@ from PySide6.QtWidgets import (
     QListWidgetItem,
     QPushButton,
     QSizePolicy,
-    QToolButton,
     QVBoxLayout,
     QWidget,
 )
@@ -63,7 +62,7 @@ class StartPage(QWidget):
         self.galleries = galleries
         self.list = QListWidget()
         self.buttons: list[QPushButton] = []
-        self.recent: list[QToolButton] = []
+        self.recent: list[QPushButton] = []
         self.open_button, self.back_button = QPushButton("Open file…"), QPushButton()
         self.back_button.clicked.connect(self.left)
         self._recent_box = QVBoxLayout()
@@ -170,8 +169,8 @@ class StartPage(QWidget):
             self._recent_box.addWidget(button)
         self._recent_title.setVisible(bool(self.recent))
 
-    def _recent_button(self, reference: str) -> QToolButton:
-        button = QToolButton()
+    def _recent_button(self, reference: str) -> QPushButton:
+        button = QPushButton()
         button.setProperty("recent", True)
         text = Path(reference).name if reference.startswith("/") else title_of(reference, self.galleries)
         button.setText(button.fontMetrics().elidedText(text, Qt.TextElideMode.ElideMiddle, 29 * GRID))

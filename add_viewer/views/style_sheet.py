@@ -56,15 +56,15 @@ QToolButton[link="true"] { border: none; background: transparent; color: $accent
 QToolButton[link="true"]:hover, QToolButton[link="true"]:focus { text-decoration: underline; }
 QPushButton[choice="true"] { text-align: left; padding: 4px 8px; }
 QToolButton[quiet="true"] { border: 1px solid transparent; background: transparent; }
-QToolButton[recent="true"] { border: 1px solid transparent; background: transparent; padding: 4px 0; }
+QPushButton[recent="true"] { border: 1px solid transparent; background: transparent; padding: 4px 0; text-align: left; }
 QPushButton:hover, QToolButton:hover { border-color: $muted; }
 QPushButton:pressed, QToolButton:pressed, QToolButton:checked, QPushButton:checked { border-color: $accent;
     color: $accent; }
 QPushButton:focus { border: 2px solid $accent; padding: 3px 9px; }
 QPushButton[choice="true"]:focus { padding: 3px 7px; }
 QToolButton:focus { border: 2px solid $accent; padding: 3px; }
-QToolButton[recent="true"]:hover { color: $accent; border-color: transparent; }
-QToolButton[recent="true"]:focus { border: none; padding: 5px 1px; color: $accent; text-decoration: underline; }
+QPushButton[recent="true"]:hover { color: $accent; border-color: transparent; }
+QPushButton[recent="true"]:focus { border: none; padding: 5px 1px; color: $accent; text-decoration: underline; }
 QToolButton[link="true"]:focus { border: none; padding: 1px 0; }
 QPushButton[primary="true"] { background: $accent; color: $on_accent; border-color: $accent;
     font-weight: 600; padding: 6px 16px; }

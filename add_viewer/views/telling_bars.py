@@ -94,10 +94,9 @@ class TellingBars(QWidget):
             self._paint_row(painter, QRectF(0, row * _ROW, self.width(), _ROW), telling)
         self._paint_scale(painter, _ROW * len(self._tellings))
         if self.hasFocus() and self._tellings:
-            painter.setBrush(Qt.BrushStyle.NoBrush)
             painter.setPen(QPen(self._theme.colour("accent"), 2))
-            row = min(self._row, len(self._tellings) - 1)
-            painter.drawRoundedRect(QRectF(1, row * _ROW + 1, self.width() - 2, _ROW - 2), 4, 4)
+            below = _ROW * (min(self._row, len(self._tellings) - 1) + 1) - 1
+            painter.drawLine(0, below, self.width(), below)
 
     def _track(self, y: float) -> QRectF:
         return QRectF(_LABEL, y - 5, self.width() - _LABEL - _NUMBER - GRID, 10)
