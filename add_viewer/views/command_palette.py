@@ -28,7 +28,7 @@ class CommandPalette(SearchPopup):
             name="palette",
             prompt="What would you like to do?",
             title="Command palette",
-            nothing="Nothing is called that. Try a word of a menu, the name of a shape, or a field such as “AHKS”.",
+            nothing="Nothing is called that: try the name of a shape, or a field such as “AHKS”.",
             page=ROWS - 1,
         )
         self._main, self._settings = window, settings

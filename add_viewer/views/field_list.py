@@ -26,7 +26,7 @@ class FieldList(SearchPopup):
             name="fieldList",
             prompt="Find a field: wks, curvature, mirror …",
             title="Find a field",
-            nothing="No field is called that. Try “curvature”, “distance”, or the name of a descriptor.",
+            nothing="No field is called that: try “curvature” or “AHKS”.",
             page=6,
         )
         self._entries: tuple[FieldEntry, ...] = ()

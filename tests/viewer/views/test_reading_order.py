@@ -11,6 +11,7 @@ from PySide6.QtWidgets import QAbstractButton, QApplication, QDialog, QMainWindo
 from add_viewer.models.fields import FieldChoice
 from add_viewer.models.jobs import Job, JobRequest
 from add_viewer.views.canvas import Canvas
+from add_viewer.views.tool_strip import ToolStrip
 
 STATES = ("running", "paused", "failed", "interrupted", "waiting", "done")
 
@@ -161,3 +162,15 @@ def test_no_words_of_a_button_are_cut(busy, qtbot):
             busy.window.resize(*size)
             qtbot.wait(350)  # the bars follow the jobs
             qtbot.waitUntil(lambda: words_cut(busy.window) == [])
+
+
+def test_the_tools_lie_over_no_words_in_two_rows_of_small_views(busy, qtbot):
+    symmetry(busy)
+    busy.session.arrange(layout="grid")
+    busy.window.resize(1024, 700)
+    scene = busy.window.scene
+    qtbot.waitUntil(lambda: len(scene.views) == 6 and scene.views[-1].y() > scene.views[0].y())
+    tools = room_of(scene.findChild(ToolStrip))
+    for view in scene.views:
+        for overlay in (view.hint, view.colour_bar, view.label):
+            assert not tools.intersects(room_of(overlay)), f"{type(overlay).__name__} of {view.key}"
