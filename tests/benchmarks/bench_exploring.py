@@ -1,4 +1,4 @@
-"""Click to distance map on three shapes of 6,890 vertices, descriptors being there; software rendering.
+"""Three shapes of 6,890 vertices: turning θ, and click to distance map, descriptors being there; software rendering.
 
 Run on a screen: xvfb-run -a -s "-screen 0 1440x900x24" python tests/benchmarks/bench_exploring.py
 """
@@ -63,11 +63,11 @@ class Bench:
         end = time.perf_counter() + seconds
         self.wait(lambda: time.perf_counter() > end)
 
-    def show(self, descriptor: str) -> None:
-        """Distances in `descriptor` on all shapes."""
+    def show(self, **field: object) -> None:
+        """This field on all shapes."""
         session, results = self.assembly.session, self.assembly.results
         session.pick(6868)
-        session.choose_field(kind="distance", descriptor=descriptor)
+        session.choose_field(**field)
 
         def there() -> bool:
             fields = [results.fields.get((0, key)) for key in PEOPLE]
@@ -88,11 +88,16 @@ class Bench:
         return chosen
 
     def click(self, place: QPoint) -> tuple[float, float]:
-        """Milliseconds from the click to the last of the three pictures: on the clock, and of CPU."""
+        """What `latency` says of a click."""
         canvas = self.assembly.window.scene.active_view.canvas
+        button, keys = Qt.MouseButton.LeftButton, Qt.KeyboardModifier.NoModifier
+        return self.latency(lambda: QTest.mouseClick(canvas, button, keys, place))
+
+    def latency(self, act: Callable[[], object]) -> tuple[float, float]:
+        """Milliseconds from what is done to the last of the three pictures: on the clock, and of CPU."""
         self.drawn.clear()
         start, used = time.perf_counter(), _cpu()
-        QTest.mouseClick(canvas, Qt.MouseButton.LeftButton, Qt.KeyboardModifier.NoModifier, place)
+        act()
         self.wait(lambda: len(self.drawn) == len(PEOPLE) and all(self.drawn.values()))
         return 1000 * (self.last[0] - start), 1000 * (self.last[1] - used)
 
@@ -102,17 +107,27 @@ def _cpu() -> float:
     return usage.ru_utime + usage.ru_stime
 
 
+def _print(name: str, aim: int, taken: list[tuple[float, float]]) -> None:
+    clock, work = (statistics.median(column) for column in zip(*taken, strict=True))
+    print(f"{name:36s} {clock:8.0f} ms   (aim {aim})   {work:5.0f} ms of CPU", flush=True)
+
+
 def main() -> None:
     """Print the table."""
     bench = Bench()
+    bench.show(kind="heat")
+    taken = []
+    for turn in range(CLICKS):
+        taken.append(bench.latency(lambda turn=turn: bench.assembly.session.diffuse(theta=0.2 * turn + 0.1)))
+        bench.settle(0.4)
+    _print("θ to three pictures", 200, taken)
     for descriptor in ("hks", "wks", "ahks", "humans-madd3"):
-        bench.show(descriptor)
+        bench.show(kind="distance", descriptor=descriptor)
         taken = []
         for place in bench.places()[:CLICKS]:
             taken.append(bench.click(place))
             bench.settle(0.4)
-        clock, work = (statistics.median(column) for column in zip(*taken, strict=True))
-        print(f"click to distance map, {descriptor:13s} {clock:8.0f} ms   (aim 150)   {work:5.0f} ms of CPU")
+        _print(f"click to distance map, {descriptor}", 150, taken)
     bench.assembly.stop()
 
 
