@@ -15,6 +15,8 @@ from ..operators import AnisotropicLaplacian
 LARGEST = 3.0
 """Bound of the eigenvalues of S against its diagonal: of each triangle's part they add up to 3, and one is 0."""
 ACCURACY = 1e-12
+MOST = 1000.0
+"""Largest strength: as over so many edges. The series grows with its square root."""
 COLUMNS_AT_ONCE = 32
 """So many stay in the cache for one step of the recurrence."""
 
@@ -27,7 +29,7 @@ def smoothed(shape: TriangleMesh | PointCloud, values: NDArray[np.floating], *, 
     matter of edges and not of lengths, so that finely meshed fingers keep their fingertips. Constants, and vertices
     of no face, stay as they are. Time and memory grow in proportion to n.
 
-    Raises ParameterError if `values` has not a row for each vertex.
+    Raises ParameterError if `values` has not a row for each vertex, or the strength is not from 0 to 1000.
     """
     given = np.asarray(values, dtype=np.float64)
     if given.ndim < 1 or len(given) != shape.vertex_count:
@@ -35,6 +37,8 @@ def smoothed(shape: TriangleMesh | PointCloud, values: NDArray[np.floating], *, 
             f"values must have a row for each of the {shape.vertex_count} vertices, but their shape is {given.shape}."
         )
     rate = positive("strength", strength)
+    if rate > MOST:
+        raise ParameterError(f"strength must be at most {MOST:g}, but it is {rate:g}.")
     stiffness = AnisotropicLaplacian(shape, alpha=0.0).stiffness()
     diagonal = stiffness.diagonal()
     averaging = csr_array(diags_array(1.0 / np.where(diagonal > 0, diagonal, 1.0)) @ stiffness)
