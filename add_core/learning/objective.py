@@ -21,10 +21,14 @@ class Objective:
 
     mirror_channels : (C,), see `InputRecipe`. By it every point is also seen as in a mirror, where it is its own mirror
     image: a wrong point that differs in nothing but the side, on any meshing. None to do without.
+    repeated : all channels are one and the same, as of an isotropic twin, and so is their noise: noise of each its own
+    would average out, and the twin learn from cleaner inputs than the network that it is compared with.
     """
 
-    def __init__(self, settings: TrainingSettings, mirror_channels: IntArray | None = None) -> None:
-        self._settings = settings
+    def __init__(
+        self, settings: TrainingSettings, mirror_channels: IntArray | None = None, *, repeated: bool = False
+    ) -> None:
+        self._settings, self._repeated = settings, repeated
         self._mirror = None if mirror_channels is None else torch.from_numpy(np.array(mirror_channels))
 
     def loss(self, network: Network, batch: Batch, step: int) -> Tensor:
@@ -60,7 +64,8 @@ class Objective:
 
     def _noise(self, shape: torch.Size, step: int) -> Tensor:
         seed = int(np.random.SeedSequence([self._settings.seed, step]).generate_state(1)[0])
-        return torch.randn(shape, generator=torch.Generator().manual_seed(seed))
+        drawn = (shape[0], 1, shape[2]) if self._repeated else shape
+        return torch.randn(drawn, generator=torch.Generator().manual_seed(seed))
 
     def _arithmetic(self) -> AbstractContextManager[object]:
         if self._settings.arithmetic == "float32":

@@ -74,7 +74,7 @@ def fit(
     run = _Run(
         network,
         chosen,
-        objective=Objective(chosen, mirror_channels(recipe, symmetry)),
+        objective=Objective(chosen, mirror_channels(recipe, symmetry), repeated=recipe.isotropic),
         sampler=_sampler(shapes, recipe, chosen, symmetry, moments),
         validator=Validator(validation, symmetry=symmetry, moments=moments) if validation else None,
         model=lambda trained, facts: Model(

@@ -101,3 +101,16 @@ def test_only_inputs_with_sides_are_looked_at_in_a_mirror(recipe, sees_sides):
     found = mirror_channels(recipe, np.arange(4))
     assert (found is not None) == sees_sides
     assert mirror_channels(recipe, None) is None
+
+
+@pytest.mark.parametrize("repeated", [True, False])
+def test_channels_that_are_one_and_the_same_have_one_noise(repeated):
+    """A network that takes the difference of two such channels sees nothing of either."""
+    network = build(Architecture("difference", "SC FC1", channels=2, splines=3, bias=False))
+    with torch.no_grad():
+        next(network.parameters()).copy_(torch.tensor([[1.0, 1.0, 1.0, -1.0, -1.0, -1.0]]))
+    values = np.repeat(np.random.default_rng(0).normal(size=(6, 1, 3)), 2, axis=1).astype(np.float32)
+    batch = Batch(values, values, places=np.arange(6), mirror=np.full(6, -1))
+    loss = Objective(TrainingSettings(noise=1.0), repeated=repeated).loss(network, batch, 0).item()
+    blind = np.log(6.0)  # all six look alike
+    assert (abs(loss - blind) < 1e-5) == repeated
