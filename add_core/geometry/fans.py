@@ -10,15 +10,13 @@ import numpy as np
 from .._check import BoolArray, FloatArray, IntArray, read_only
 from .arcs import arc_edges
 from .bridges import bridging_triangles
-from .delaunay_stars import delaunay_stars
 from .neighbours import DistinctPoints
+from .stars import closed_stars, star_corners, surface_stars
 from .tangent_planes import TangentPlanes
 
 _log = logging.getLogger(__name__)
 FLAT_ENOUGH = 0.8
 """Cosine between a triangle and the tangent planes of its corners above which it surely lies on the surface."""
-_GAP = 0.05  # radians of a star that do not count as open
-_TIE = 1e-7  # share of the spacing squared by which points on one circle are told apart
 
 
 @dataclass(frozen=True, eq=False)
@@ -46,21 +44,22 @@ def build_fans(
 ) -> Fans:
     """Fans of a cloud from the tangent planes of its distinct points.
 
-    Neighbours that seem to lie across a limb or a gap are left out of a fan at first, and let in by a more lenient
-    test if the fan stays open without them, or by none if the point would touch no triangle at all. A point on the
-    boundary has an open fan. Triangles that bridge a gap all the same are left out. Points in one place share the
-    fans around it: they take their turns as corners.
+    They are the `surface_stars` of the points without triangles that bridge a gap, closed along the bottoms of folds.
+    A point on the boundary has an open fan. Points in one place share the fans around it: they take their turns as
+    corners.
 
     estimated : whether the normals are, rather than given.
     """
-    stars = _stars(planes)
     first = distinct.first
-    flat = _flatness(stars, points[first], normals[first]) > FLAT_ENOUGH
+    places, upright = points[first], normals[first]
+    stars = surface_stars(planes)
+    corners = star_corners(stars, planes)
     spacing = planes.nearest.distances[:, :6].sum(axis=1) / 6
-    sure = flat & (_holders(stars) >= 3)
-    sound = ~bridging_triangles(stars, sure, points[first], normals[first], spacing=spacing, estimated=estimated)
-    weights = _weights(stars, flat, len(first))
-    triangles, weights = _shared_by_duplicates(stars[sound], weights[sound], distinct)
+    sure = _is_flat(corners, places, upright) & (_holders(corners) >= 3)
+    bridging = bridging_triangles(corners, sure, places, upright, spacing=spacing, estimated=estimated)
+    corners = star_corners(closed_stars(stars, bridging, planes), planes)
+    weights = _weights(corners, _is_flat(corners, places, upright), len(first))
+    triangles, weights = _shared_by_duplicates(corners, weights, distinct)
     touched = np.zeros(len(distinct.place), dtype=bool)
     touched[triangles] = True
     isolated = np.flatnonzero(~touched)
@@ -71,50 +70,12 @@ def build_fans(
     return Fans(*map(read_only, (triangles, weights, edges, areas, isolated)))
 
 
-def _stars(planes: TangentPlanes) -> IntArray:
-    """(t, 3): centre and two neighbours, as numbers of distinct points."""
-    n, k = planes.near.shape
-    if k < 2:
-        return np.empty((0, 3), dtype=np.int64)
-    # Points of a grid lie on common circles. A tiny fixed weight per point decides which diagonal all fans around
-    # take.
-    spacing = float(np.median(planes.nearest.distances[:, :1]))
-    weight = _TIE * spacing**2 * np.random.default_rng(0).random(size=(n,))
-    ties = weight[planes.nearest.indices] - weight[:, None]
-    stars = delaunay_stars(planes.plane, planes.on_surface, ties)
-    stars = _widened(stars, planes, ties, planes.perhaps, _covered_angles(stars, planes) < 2 * np.pi - _GAP)
-    lonely = np.bincount(planes.nearest.indices[stars[:, :1], stars[:, 1:]].ravel(), minlength=n) == 0
-    lonely[stars[:, 0]] = False
-    stars = _widened(stars, planes, ties, planes.near, lonely)
-    return np.column_stack([stars[:, 0], planes.nearest.indices[stars[:, :1], stars[:, 1:]]])
-
-
-def _widened(
-    stars: IntArray, planes: TangentPlanes, ties: FloatArray, usable: BoolArray, candidates: BoolArray
-) -> IntArray:
-    """The stars, those of `candidates` replaced by stars among all `usable` neighbours where these leave less
-    open."""
-    rows = np.flatnonzero(candidates)
-    wider = delaunay_stars(planes.plane[rows], usable[rows], ties[rows])
-    wider[:, 0] = rows[wider[:, 0]]
-    better = _covered_angles(wider, planes) > _covered_angles(stars, planes) + _GAP
-    return np.concatenate([stars[~better[stars[:, 0]]], wider[better[wider[:, 0]]]])
-
-
-def _covered_angles(stars: IntArray, planes: TangentPlanes) -> FloatArray:
-    """(n,): radians around each point that its star covers."""
-    row, first, second = stars.T
-    a, b = planes.plane[row, first], planes.plane[row, second]
-    angle = np.arctan2(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0], np.einsum("ti,ti->t", a, b))
-    return np.bincount(row, angle, len(planes.near)).astype(np.float64)
-
-
-def _flatness(stars: IntArray, points: FloatArray, normals: FloatArray) -> FloatArray:
-    """(t,): least cosine between a triangle and the tangent planes of its corners."""
+def _is_flat(stars: IntArray, points: FloatArray, normals: FloatArray) -> BoolArray:
+    """(t,): whether a triangle lies within `FLAT_ENOUGH` in the tangent planes of all its corners."""
     a, b, c = (points[stars[:, i]] for i in range(3))
     upright = np.cross(b - a, c - a)
     upright /= np.linalg.norm(upright, axis=1, keepdims=True)
-    return np.asarray(np.einsum("ti,tci->tc", upright, normals[stars]).min(axis=1, initial=1.0))
+    return np.asarray(np.einsum("ti,tci->tc", upright, normals[stars]).min(axis=1, initial=1.0) > FLAT_ENOUGH)
 
 
 def _holders(stars: IntArray) -> IntArray:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -15,6 +16,9 @@ FAN_NEIGHBOURS = 20
 """Neighbours among which a point's fan is sought: three rings of an even sample."""
 FARTHEST = 2.0
 """How far away a neighbour may be, as a multiple of how far its own neighbours reach."""
+
+
+_TIE = 1e-7  # share of the spacing squared by which points on one circle are told apart
 
 
 @dataclass(frozen=True)
@@ -47,6 +51,7 @@ class TangentPlanes:
     bends : (n, k, 2), normal of the neighbour minus normal of the point in `basis`, as long as in space.
     near : (n, k): the neighbour has neighbours of its own about as far away; nothing is near to an outlier.
     on_surface : (n, k): near, and on one piece of surface by the strict test. perhaps : by the lenient one.
+        alongside : by the slope of the strict test alone, wherever the normals point.
     """
 
     basis: TangentBasis
@@ -56,6 +61,7 @@ class TangentPlanes:
     near: BoolArray
     on_surface: BoolArray
     perhaps: BoolArray
+    alongside: BoolArray
 
     @classmethod
     def of(cls, points: FloatArray, normals: FloatArray, *, estimated: bool = False) -> TangentPlanes:
@@ -77,13 +83,27 @@ class TangentPlanes:
             near,
             near & _on_one_surface(direction, here, other, strict),
             near & _on_one_surface(direction, here, other, lenient),
+            near & (_slopes(direction, here, other) < strict.steepest),
         )
+
+    @cached_property
+    def ties(self) -> FloatArray:
+        """(n, k), added to squared distances: points of a grid lie on common circles. A tiny fixed weight per point
+        decides which diagonal all fans around take."""
+        spacing = float(np.median(self.nearest.distances[:, :1]))
+        weight = _TIE * spacing**2 * np.random.default_rng(0).random(size=len(self.near))
+        return np.asarray(weight[self.nearest.indices] - weight[:, None])
 
 
 def _on_one_surface(direction: FloatArray, here: FloatArray, other: FloatArray, test: SurfaceTest) -> BoolArray:
+    agreement = reflected_cosines(direction, here, other)
+    return np.asarray((_slopes(direction, here, other) < test.steepest) & (agreement > test.least_agreement))
+
+
+def _slopes(direction: FloatArray, here: FloatArray, other: FloatArray) -> FloatArray:
+    """(n, k): sine between each chord and the tangent plane of that end on which it stands steeper."""
     heights = np.einsum("nki,nki->nk", direction, here), np.einsum("nki,nki->nk", direction, other)
-    slope = np.maximum(np.abs(heights[0]), np.abs(heights[1]))
-    return np.asarray((slope < test.steepest) & (reflected_cosines(direction, here, other) > test.least_agreement))
+    return np.maximum(np.abs(heights[0]), np.abs(heights[1]))
 
 
 def _laid_down(vectors: FloatArray, basis: TangentBasis) -> FloatArray:
