@@ -39,9 +39,12 @@ def closed_stars(stars: IntArray, bridging: BoolArray, planes: TangentPlanes) ->
     if not len(stars):
         return stars
     ends = _is_open(stars, planes)
-    bridges = _edges_only_in(bridging, star_corners(stars, planes), len(planes.near))
-    usable = planes.perhaps | (planes.alongside & ends[planes.nearest.indices])
-    usable &= ~_is_among_edges(bridges, planes)
+    sides = _sides(star_corners(stars, planes), len(planes.near))
+    sound = sorted_distinct(sides[~bridging])
+    bridges = sorted_distinct(sides[bridging])
+    bridges = bridges[~is_among(bridges, sound)]
+    usable = planes.alongside & ends[planes.nearest.indices] & ~_are_among(bridges, planes)
+    usable |= _are_among(sound, planes)
     return _widened(stars[~bridging], planes, usable, ends)
 
 
@@ -72,15 +75,13 @@ def _covered_angles(stars: IntArray, planes: TangentPlanes) -> FloatArray:
     return np.bincount(row, angle, len(planes.near)).astype(np.float64)
 
 
-def _edges_only_in(some: BoolArray, corners: IntArray, count: int) -> IntArray:
-    """Edges low · count + high, ascending, that `some` of the triangles have and no other."""
-    sides = np.sort(corners[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 3, 2), axis=2) @ np.array([count, 1])
-    theirs = sorted_distinct(sides[some])
-    return np.asarray(theirs[~is_among(theirs, sorted_distinct(sides[~some]))])
+def _sides(corners: IntArray, count: int) -> IntArray:
+    """(t, 3): the sides of triangles as numbers low · count + high."""
+    return np.sort(corners[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 3, 2), axis=2) @ np.array([count, 1])
 
 
-def _is_among_edges(edges: IntArray, planes: TangentPlanes) -> BoolArray:
-    """(n, k): whether the way from each point to its neighbour is one of the `edges`."""
+def _are_among(sides: IntArray, planes: TangentPlanes) -> BoolArray:
+    """(n, k): whether the way from each point to its neighbour is one of the `sides`, which are ascending."""
     count = len(planes.near)
     here, there = np.arange(count)[:, None], planes.nearest.indices
-    return is_among(np.minimum(here, there) * count + np.maximum(here, there), edges)
+    return is_among(np.minimum(here, there) * count + np.maximum(here, there), sides)
