@@ -31,8 +31,9 @@ def closed_stars(stars: IntArray, bridging: BoolArray, planes: TangentPlanes) ->
     """`surface_stars` without the triangles that bridge a gap, closed along the bottoms of folds.
 
     Where a fold is pressed shut, as an armpit is, normals on its two walls face each other and say nothing about who is
-    whose neighbour; but points at its bottom are the only ones whose stars stay open from the start. Those close with
-    one another whatever their normals, along chords that do not stand upright on either and are no bridge's.
+    whose neighbour; but points at its bottom are the only ones whose stars stay open from the start. Those are sought
+    anew among what sound triangles join them to and one another, whatever their normals, along chords that do not
+    stand upright on either and are no bridge's.
 
     bridging : (t,), which triangles of `stars` bridge.
     """
