@@ -78,7 +78,7 @@ def _covered_angles(stars: IntArray, planes: TangentPlanes) -> FloatArray:
 
 def _sides(corners: IntArray, count: int) -> IntArray:
     """(t, 3): the sides of triangles as numbers low · count + high."""
-    return np.sort(corners[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 3, 2), axis=2) @ np.array([count, 1])
+    return np.asarray(np.sort(corners[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 3, 2), axis=2) @ np.array([count, 1]))
 
 
 def _are_among(sides: IntArray, planes: TangentPlanes) -> BoolArray:

@@ -103,7 +103,7 @@ def _on_one_surface(direction: FloatArray, here: FloatArray, other: FloatArray, 
 def _slopes(direction: FloatArray, here: FloatArray, other: FloatArray) -> FloatArray:
     """(n, k): sine between each chord and the tangent plane of that end on which it stands steeper."""
     heights = np.einsum("nki,nki->nk", direction, here), np.einsum("nki,nki->nk", direction, other)
-    return np.maximum(np.abs(heights[0]), np.abs(heights[1]))
+    return np.asarray(np.maximum(np.abs(heights[0]), np.abs(heights[1])))
 
 
 def _laid_down(vectors: FloatArray, basis: TangentBasis) -> FloatArray:
