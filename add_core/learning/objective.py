@@ -34,9 +34,10 @@ class Objective:
     def loss(self, network: Network, batch: Batch, step: int) -> Tensor:
         """A scalar with its gradient."""
         settings, count = self._settings, len(batch.places)
-        inputs = torch.from_numpy(np.concatenate([batch.one, batch.two]))  # (2B, C, M)
+        parts = [batch.one, batch.two] if batch.wrong is None else [batch.one, batch.two, batch.wrong]
+        inputs = torch.from_numpy(np.concatenate(parts))  # (2B + E, C, M)
         if self._mirror is not None and settings.loss != "multinomial":
-            inputs = torch.cat([inputs, inputs[count:, self._mirror]])  # (3B, C, M)
+            inputs = torch.cat([inputs, inputs[count : 2 * count, self._mirror]])  # (3B + E, C, M)
         if settings.noise > 0:
             inputs = inputs + settings.noise * self._noise(inputs.shape, step)
         with self._arithmetic():
@@ -44,20 +45,28 @@ class Objective:
         outputs, places = outputs.float(), torch.from_numpy(np.array(batch.places)).to(settings.device)
         if settings.loss == "multinomial":
             return multinomial_loss(outputs, torch.cat([places, places]))
-        return self._of_pairs(outputs, places, torch.from_numpy(np.array(batch.mirror)).to(settings.device))
+        mirror = torch.from_numpy(np.array(batch.mirror)).to(settings.device)
+        wrong = batch.places[:0] if batch.wrong_places is None else batch.wrong_places
+        return self._of_pairs(outputs, places, mirror, torch.from_numpy(np.array(wrong)).to(settings.device))
 
-    def _of_pairs(self, outputs: Tensor, places: Tensor, mirror: Tensor) -> Tensor:
-        settings, count = self._settings, len(places)
+    def _of_pairs(self, outputs: Tensor, places: Tensor, mirror: Tensor, wrong: Tensor) -> Tensor:
+        settings, count, last = self._settings, len(places), 2 * len(places) + len(wrong)
         distances = squared_distances(outputs[:count], outputs[count : 2 * count])
         same = places[:, None] == places[None, :]
         # A place on the plane of symmetry is its own mirror image.
         true = (mirror[None, :] < 0) | (mirror[None, :] == places[:, None])
-        others = squared_distances(outputs[:count], outputs[2 * count :])  # (B, B), or (B, 0) without mirrors
+        others = squared_distances(outputs[:count], outputs[last:])  # (B, B), or (B, 0) without mirrors
         others = others.masked_fill(true[:, : others.shape[1]], torch.inf)
+        around = squared_distances(outputs[:count], outputs[2 * count : last])  # (B, E)
+        around = around.masked_fill(wrong[None, :] == places[:, None], torch.inf)
         if settings.loss == "soft-nearest":
-            return soft_nearest_loss(distances, same & ~torch.eye(count, dtype=torch.bool, device=same.device), others)
+            twice = same & ~torch.eye(count, dtype=torch.bool, device=same.device)
+            return soft_nearest_loss(distances, twice, torch.cat([others, around], dim=1))
         negatives = [distances[negative_pairs(places, distances.detach(), hard=settings.hard_negatives)]]
         negatives.append(others.diagonal()[torch.isfinite(others.diagonal())] if others.shape[1] else distances[:0, 0])
+        if len(wrong):
+            nearest = around.min(dim=0).values
+            negatives.append(nearest[torch.isfinite(nearest)])
         return siamese_loss(
             distances.diagonal(), torch.cat(negatives), margin=settings.margin, balance=settings.balance
         )

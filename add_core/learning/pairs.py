@@ -8,13 +8,12 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.spatial import cKDTree
 
-from .._check import IntArray, count_in, index_array, read_only
+from .._check import FloatArray, IntArray, count_in, index_array, read_only
 from ..errors import ParameterError
 from .inputs import Inputs, Moments
+from .nearby import CLUSTER, NEAREST, nearby_pairs
 from .training_set import UNKNOWN, PreparedShape
 
-CLUSTER, NEAREST = 5, 16
-"""Places that are drawn together, and among how many shared neighbours of the first the others are drawn."""
 MOST_TRIES = 1000
 """Draws of two shapes until a pair shares places: consistent sets need one or two."""
 
@@ -24,20 +23,24 @@ class Batch:
     """Points of two shapes that correspond row by row.
 
     one, two : (B, C, M), standardised inputs. places : (B,), equal where the same place was drawn twice.
-    mirror : (B,), the place that is the mirror image of each, −1 where it is unknown.
+    mirror : (B,), the place that is the mirror image of each, −1 where it is unknown. wrong : (E, C, M), further points
+    of the second shape, near those that correspond, and wrong_places : (E,); none without a body to tell by.
     """
 
     one: Inputs
     two: Inputs
     places: IntArray
     mirror: IntArray
+    wrong: Inputs | None = None
+    wrong_places: IntArray | None = None
 
 
 class PairSampler:
     """Draws batches; the same step of the same seed is the same batch, whatever was drawn before.
 
     shapes : at least two that share places. pairs : B. symmetry : (P,), the place that mirrors each place, or None.
-    moments : standardise by these; None standardises every shape by its own.
+    moments : standardise by these; None standardises every shape by its own. positions : (P, 3), where each place is on
+    one body: see `nearby_pairs`. None draws places alone that both shapes have.
 
     Places come in clusters of five, the first anywhere and four near it, because neighbours are what is confused most.
     Each shape counts the same, whatever its number of points. Raises ParameterError if no two shapes share a place.
@@ -51,11 +54,12 @@ class PairSampler:
         seed: int,
         symmetry: IntArray | None = None,
         moments: Moments | None = None,
+        positions: FloatArray | None = None,
     ) -> None:
         if len(shapes) < 2:
             raise ParameterError(f"shapes must hold at least two shapes to compare, but it holds {len(shapes)}.")
         self._pairs = count_in("pairs", pairs, 4, 1_000_000)
-        self._shapes, self._seed, self._moments = shapes, seed, moments
+        self._shapes, self._seed, self._moments, self._positions = shapes, seed, moments, positions
         self._places = 1 + max(int(shape.places.max()) for shape in shapes)
         self._symmetry = _padded(symmetry, self._places)
         self.batch(0)
@@ -63,6 +67,8 @@ class PairSampler:
     def batch(self, step: int) -> Batch:
         """The batch of step 0, 1, 2, …: inputs of shape (B, C, M)."""
         draw = np.random.default_rng([self._seed, step])
+        if self._positions is not None:
+            return self._nearby(self._positions, draw)
         one, two, common = self._two_shapes(draw)
         places = _clustered(one, common, self._pairs, draw)
         return Batch(
@@ -70,6 +76,21 @@ class PairSampler:
             two.inputs(two.vertex_at[places], self._moments),
             read_only(places),
             read_only(self._symmetry[places]),
+        )
+
+    def _nearby(self, positions: FloatArray, draw: np.random.Generator) -> Batch:
+        first, second = draw.choice(len(self._shapes), 2, replace=False)
+        one, two = self._shapes[first], self._shapes[second]
+        chosen, found, wrong = nearby_pairs(one, two, positions, self._pairs, draw)
+        seen = two.inputs(np.concatenate([found, wrong]), self._moments)
+        places = two.places[found]
+        return Batch(
+            one.inputs(chosen, self._moments),
+            seen[: self._pairs],
+            read_only(places),
+            read_only(self._symmetry[places]),
+            seen[self._pairs :],
+            read_only(two.places[wrong]),
         )
 
     def _two_shapes(self, draw: np.random.Generator) -> tuple[PreparedShape, PreparedShape, IntArray]:

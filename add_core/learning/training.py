@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 import torch
 
-from .._check import IntArray
+from .._check import FloatArray, IntArray, points_array
 from ..errors import Cancelled, ConvergenceError, ParameterError
 from ..geometry import TriangleMesh
 from .architectures import Architecture, Network, build, take_over
@@ -43,6 +43,7 @@ def fit(
     settings: TrainingSettings | None = None,
     validation: Sequence[PreparedShape] = (),
     symmetry: IntArray | None = None,
+    positions: FloatArray | None = None,
     reference: TriangleMesh | None = None,
     start: Network | None = None,
     report: Report | None = None,
@@ -52,6 +53,8 @@ def fit(
 
     A folder that holds a checkpoint of the same training is gone on with, to the same weights, bit for bit, as without
     the interruption. symmetry : (P,), the place that mirrors each place, whose pairs become negatives.
+    positions : (P, 3), where each place is on one body, by which vertices of different meshings have counterparts: see
+        `nearby_pairs`. None learns from places alone that two shapes share.
     reference, card : of the model. start : a network whose layers are taken over, see `take_over`.
     report : called with a dictionary for each event ("step", "validation", "done"); returning False stops the training
         after a checkpoint and raises Cancelled.
@@ -66,16 +69,18 @@ def fit(
     if start is not None:
         take_over(network, start)
     _check_classes(network, chosen, shapes)
+    if positions is not None and chosen.loss == "multinomial":
+        raise ParameterError("positions are of no use to the loss 'multinomial', which names places. Leave them out.")
     pooled = Moments.pooled([shape.moments for shape in shapes])
     moments = pooled if chosen.standardisation == "set" else None
     smoothing = 0.0 if network.is_classifier else SMOOTHING
     about = [asdict(architecture), asdict(recipe), asdict(chosen)]
-    about.append({"data": _fingerprint([*shapes, *validation], symmetry, network)})
+    about.append({"data": _fingerprint([*shapes, *validation], symmetry, positions, network)})
     run = _Run(
         network,
         chosen,
         objective=Objective(chosen, mirror_channels(recipe, symmetry), repeated=recipe.isotropic),
-        sampler=_sampler(shapes, recipe, chosen, symmetry, moments),
+        sampler=_sampler(shapes, recipe, chosen, symmetry, moments, positions),
         validator=Validator(validation, symmetry=symmetry, moments=moments) if validation else None,
         model=lambda trained, facts: Model(
             trained, recipe, pooled, chosen.standardisation, facts | (card or {}), reference, smoothing
@@ -214,11 +219,19 @@ def _sampler(
     settings: TrainingSettings,
     symmetry: IntArray | None,
     moments: Moments | None,
+    positions: FloatArray | None,
 ) -> PairSampler:
     images: list[PreparedShape] = []
     if settings.reflections and symmetry is not None:
         images = [shape.reflected(symmetry, recipe.mirror_channels) for shape in shapes]
-    return PairSampler([*shapes, *images], pairs=settings.pairs, seed=settings.seed, symmetry=symmetry, moments=moments)
+    return PairSampler(
+        [*shapes, *images],
+        pairs=settings.pairs,
+        seed=settings.seed,
+        symmetry=symmetry,
+        moments=moments,
+        positions=None if positions is None else points_array("positions", positions),
+    )
 
 
 def _optimizer(network: Network, settings: TrainingSettings) -> torch.optim.Optimizer:
@@ -239,13 +252,17 @@ def _check_classes(network: Network, settings: TrainingSettings, shapes: Sequenc
         raise ParameterError(f"reference_size must be above {most}, the highest place, but it is {network.outputs}.")
 
 
-def _fingerprint(shapes: Sequence[PreparedShape], symmetry: IntArray | None, network: Network) -> str:
+def _fingerprint(
+    shapes: Sequence[PreparedShape], symmetry: IntArray | None, positions: FloatArray | None, network: Network
+) -> str:
     """A hash of what is learned from and where learning starts."""
     digest = blake2b(digest_size=12)
     for shape in shapes:
         for array in (shape.moments.mean, shape.moments.deviation, shape.places):
             digest.update(np.ascontiguousarray(array).tobytes())
     digest.update(b"none" if symmetry is None else np.ascontiguousarray(symmetry).tobytes())
+    if positions is not None:
+        digest.update(np.ascontiguousarray(positions).tobytes())
     for weights in network.state_dict().values():
         digest.update(weights.numpy().tobytes())
     return digest.hexdigest()

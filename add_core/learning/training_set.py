@@ -18,6 +18,7 @@ from .._check import FloatArray, IntArray, index_array, instance_of, one_of, rea
 from ..errors import GeometryError, ParameterError
 from ..geometry import PointCloud, TriangleMesh
 from ..io import Collection
+from ..spectra.family import method_of
 from .inputs import InputRecipe, Inputs, Moments
 
 UNKNOWN = -1
@@ -198,8 +199,9 @@ def _replace(target: Path, write: Callable[[Any], object]) -> None:
 
 def _key(item: TrainingShape, recipe: InputRecipe, precision: Precision) -> str:
     """A hash of all that the inputs depend on."""
-    digest = blake2b(json.dumps([asdict(recipe), precision]).encode(), digest_size=12)
     shape = item.shape
+    method = method_of(shape)
+    digest = blake2b(json.dumps([asdict(recipe), precision, method]).encode(), digest_size=12)
     second = shape.faces if isinstance(shape, TriangleMesh) else shape.normals
     for array in (shape.vertices, second, np.asarray(item.places)):
         digest.update(b"none" if array is None else np.ascontiguousarray(array).tobytes())

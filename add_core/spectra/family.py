@@ -150,12 +150,18 @@ def _job(
     )
 
 
+def method_of(shape: TriangleMesh | PointCloud) -> int:
+    """The version of all that leads from such a shape to numbers: what was kept of an earlier one is computed anew."""
+    return METHOD if isinstance(shape, TriangleMesh) else METHOD_ON_CLOUDS
+
+
 def _key(
     shape: TriangleMesh | PointCloud, channels: FloatArray, count: int, conductivity: Conductivity, dtype: Precision
 ) -> str:
     """A hash of all that the numbers depend on: the shape's arrays, the parameters, and the version of the method."""
-    method = METHOD if isinstance(shape, TriangleMesh) else METHOD_ON_CLOUDS
-    digest = blake2b(f"{method}|{type(shape).__name__}|{count}|{conductivity}|{dtype}".encode(), digest_size=20)
+    digest = blake2b(
+        f"{method_of(shape)}|{type(shape).__name__}|{count}|{conductivity}|{dtype}".encode(), digest_size=20
+    )
     second = shape.faces if isinstance(shape, TriangleMesh) else shape.normals
     for array in (shape.vertices, second, channels):
         if array is None:

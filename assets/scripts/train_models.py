@@ -7,10 +7,15 @@
     python train_models.py humans-5 -o RUN5 --inputs INPUTS --start RUN4
     python train_models.py correspondence -o RUN --inputs INPUTS --start RUN5
     python train_models.py humans-6 -o RUN6 --inputs INPUTS --start RUN5
+    python train_models.py humans-7 -o RUN7 --inputs INPUTS --start RUN6
+    python mix_models.py RUN5=0.2 RUN6=0.4 RUN7=0.4 -o START8.safetensors
+    python train_models.py humans-8 -o RUN8 --inputs INPUTS --start START8.safetensors
+    python mix_models.py RUN6=0.4 RUN8=0.6 -o MIXED.safetensors
     python train_models.py dogs -o RUN
     python train_models.py osd -o RUN --inputs INPUTS
 
-humans-madd3 learns in six stages, all but the last from more bodies than the one before. About half of the time goes
+humans-madd3 learns in eight stages, at first from more and more bodies, in the last two with the nearest vertices of
+other meshings as counterparts, and is the mean of two of them. About half of the time goes
 into spectra: 17 operators for each body, 7 to 15 seconds on a core, and 20 MB of disk each in INPUTS. Each may be
 stopped and started again; RUN/model.safetensors is the best so far.
 """
@@ -38,14 +43,18 @@ OSD = range(0, 112, 2)
 """Training bodies of the optimal spectral descriptors."""
 COMMON = TrainingSettings(pairs=160, noise=0.15, averaging=0.998, arithmetic="bfloat16", validate_every=500)
 LATER = replace(COMMON, noise=0.1, seed=1, validate_every=1000)
+LAST = replace(LATER, noise=0.04, learning_rate=4e-4)
 
 
 @dataclass(frozen=True)
 class Stage:
-    """bodies : the first numbers of `training_bodies.person` or `dog` that are learned from."""
+    """bodies : the first numbers of `training_bodies.person` or `dog` that are learned from. nearby : counterparts on
+    other meshings are the nearest vertices, see `add_core.learning.nearby`, and not exact ones alone.
+    """
 
     bodies: int
     settings: TrainingSettings
+    nearby: bool = False
 
 
 STAGES = {
@@ -55,6 +64,8 @@ STAGES = {
     "humans-4": Stage(490, replace(LATER, steps=9000, learning_rate=6e-4, seed=2)),
     "humans-5": Stage(980, replace(LATER, steps=15000, learning_rate=7e-4, seed=3)),
     "humans-6": Stage(980, replace(LATER, steps=10000, learning_rate=5e-4, noise=0.04, seed=4)),
+    "humans-7": Stage(980, replace(LAST, steps=1800, seed=5, validate_every=600), nearby=True),
+    "humans-8": Stage(980, replace(LAST, steps=5000, seed=7, averaging=0.999), nearby=True),
     "correspondence": Stage(980, replace(COMMON, steps=4000, loss="multinomial")),
     "dogs": Stage(36, replace(COMMON, steps=3000, validate_every=250)),
 }
@@ -101,6 +112,7 @@ def learn(data: str, run: Path, inputs: Path, start: Path | None, steps: int | N
         settings=settings,
         validation=validation,
         symmetry=chosen.symmetry,
+        positions=training_bodies.people_positions() if STAGES[data].nearby else None,
         reference=chosen.reference if named else None,
         start=None if start is None else load_model(start).network,
         report=_say,

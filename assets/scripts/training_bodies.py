@@ -40,6 +40,12 @@ def people_middles() -> Middles:
     return Middles.of(humans()[0], humans().symmetry)
 
 
+def people_positions() -> NDArray[np.float64]:
+    """(P, 3): these places on the first person."""
+    mesh = humans()[0]
+    return np.concatenate([mesh.vertices, mesh.vertices[mesh.edges].mean(axis=1)])
+
+
 @cache
 def dog_middles() -> Middles:
     """Vertices and middles of edges of the dogs as places."""

@@ -1,5 +1,7 @@
 """Pairs of points to learn from: they are what they claim, and so are the wrong ones."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 import torch
@@ -114,3 +116,50 @@ def test_channels_that_are_one_and_the_same_have_one_noise(repeated):
     loss = Objective(TrainingSettings(noise=1.0), repeated=repeated).loss(network, batch, 0).item()
     blind = np.log(6.0)  # all six look alike
     assert (abs(loss - blind) < 1e-5) == repeated
+
+
+def test_a_vertex_without_an_exact_counterpart_is_paired_with_the_nearest_on_the_body():
+    line = np.column_stack([np.arange(60.0), np.zeros(60), np.zeros(60)])
+    even, odd = numbered(np.arange(0, 60, 2)), numbered(np.arange(1, 60, 2))
+    batch = PairSampler([even, odd], pairs=40, seed=0, positions=line).batch(3)
+    assert_array_equal(np.abs(batch.one[:, 0, 0] - batch.two[:, 0, 0]), 1.0)
+    assert_array_equal(batch.two[:, 0, 0], batch.places)
+    clusters = batch.one[:, 0, 0].reshape(8, 5)
+    assert np.abs(clusters - clusters[:, :1]).max() <= 32
+    assert len(np.unique(clusters[:, 0])) > 2
+
+
+def test_exact_counterparts_stay_exact_and_wrong_points_are_near_them():
+    line = np.column_stack([np.arange(60.0), np.zeros(60), np.zeros(60)])
+    batch = PairSampler([numbered(np.arange(60))] * 2, pairs=40, seed=0, positions=line).batch(1)
+    assert_array_equal(batch.one, batch.two)
+    assert batch.wrong.shape == (20, 1, 1)
+    assert_array_equal(batch.wrong[:, 0, 0], batch.wrong_places)
+    gaps = np.abs(batch.wrong_places[:, None] - batch.places[None, :]).min(axis=1)
+    assert gaps.max() <= 8
+    assert len(np.unique(batch.wrong_places)) > 5
+
+
+def test_places_that_the_body_does_not_have_are_not_drawn():
+    line = np.column_stack([np.arange(30.0), np.zeros(30), np.zeros(30)])
+    batch = PairSampler([numbered(np.arange(60))] * 2, pairs=64, seed=0, positions=line).batch(0)
+    assert batch.places.max() < 30
+    assert batch.wrong_places.max() < 30
+
+
+@pytest.mark.parametrize("loss", ["soft-nearest", "siamese"])
+def test_points_around_the_true_one_raise_the_loss_where_they_are_confused_with_it(loss):
+    network = torch.nn.Identity()
+    network.logits = lambda inputs: inputs[:, 0]
+    settings = TrainingSettings(loss=loss, noise=0.0)
+    points = np.arange(4, dtype=np.float32)[:, None, None] * 30
+    apart = Batch(points, points, np.arange(4), np.full(4, -1))
+
+    def with_wrong(at, place):
+        wrong = np.full((1, 1, 1), at, dtype=np.float32)
+        return float(Objective(settings).loss(network, replace(apart, wrong=wrong, wrong_places=np.array([place])), 0))
+
+    without = float(Objective(settings).loss(network, apart, 0))
+    assert with_wrong(30.1, 9) > without + 0.05
+    assert with_wrong(30.1, 1) == pytest.approx(without, abs=1e-6)
+    assert with_wrong(1e3, 9) == pytest.approx(without, abs=0.6 if loss == "siamese" else 1e-6)
