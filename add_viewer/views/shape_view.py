@@ -145,7 +145,8 @@ class ShapeView(QWidget):
 
     def _show_hint(self) -> None:
         state, field = self._session.state, self.field
-        invites = self.key == state.active_key and self.panel == 0
+        is_empty = field is None or field.values is None
+        invites = is_empty and self.key == state.active_key and self.panel == 0
         message = "" if field is None else field.message
         self.hint.show_text(self._without_name(message) or (invitation(state) if invites else ""))
         self.setToolTip(message)  # a small view may not have room for all of it

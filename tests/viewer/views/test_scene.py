@@ -243,3 +243,16 @@ def test_raised_hands_stay_under_the_label_and_others_take_the_whole_height(pers
         each.canvas.leave_room((), 0)
         assert under_label(each) == raised
         assert (each.canvas.camera_model.distance < distance) == raised
+
+
+def test_nobody_is_asked_to_click_where_something_is_drawn_already(person, make_torus, qtbot):
+    person.session.add_shape(make_torus("ring"))
+    person.session.choose_field(kind="distance", descriptor="hks")
+    view = next(each for each in person.window.scene.views if each.key == person.session.state.active_key)
+    assert person.session.state.active_picks == ()
+    person.results.set_field(0, view.key, None)
+    assert view.hint.isVisible()
+    count = len(view.shape.shape.vertices)
+    drawn = ShapeField(shape=view.key, choice=person.session.state.field, values=np.linspace(0.0, 1.0, count))
+    person.results.set_field(0, view.key, drawn)
+    assert (view.hint.isVisible(), view.colour_bar.isVisible()) == (False, True)
