@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 from scipy.sparse import coo_array, csr_array
 from scipy.sparse.csgraph import connected_components, dijkstra
@@ -12,9 +14,17 @@ from .normals import reflected_cosines
 
 DETOUR = 10.0
 """An edge whose ends are this many times as far apart along the surface as across the edge bridges a gap."""
+POOR_COST = 2.0
+"""Cost of an edge, in its own length, beyond which a detour shorter by as much makes it a bridge."""
 FACING, FACING_DETOUR = 0.4, 2.0
 """Sine between an edge and the tangent planes of both its ends above which they face each other across a gap, if the
 edge runs outside of the surface: the walls of an armpit. Of such ends, those count as far apart along the surface."""
+CROTCH, CROTCH_DETOUR = 0.9, 2.25
+"""Length and detour, in distances between neighbours, below which no edge whose ends face each other bridges: where
+two fingers part, the way around it leads over the next points."""
+CROSSING, CROSSING_DETOUR = 0.8, 4.0
+"""Sum of the sines by which an edge runs below the tangent planes of its ends above which it crosses the inside if
+their normals are opposed: a thin sheet, or a hand sunk into a hip. Of such ends, those count as far apart."""
 SURE_COST = 1.0
 """Cost of an edge, in distances between neighbours, that needs no test."""
 SURE_BEND = 1.1
@@ -37,11 +47,12 @@ def bridging_triangles(
     """(t,): which fan triangles join parts of the surface that are near in space but far apart along it.
 
     The edges of the `sure` triangles are taken first, and those that cost no more than `SURE_COST` times the
-    spacing of the points, unless they face each other. The others follow in `ROUNDS`, those first that are short
+    spacing of the points, unless they face each other or run through the inside for more than `POOR_COST` times their
+    length, as where surfaces cross. The others follow in `ROUNDS`, those first that are short
     and lie well between their normals: an edge is refused if its ends are joined already, but only by a detour of
-    `DETOUR` times its length, or of `FACING_DETOUR` times if they face each other.
+    `DETOUR` times its length, or fewer if it lies badly between their normals: see `_reaches`.
     So a finger is tied to its hand before it can be tied to what it points at. Where normals are given, edges that run
-    through the inside come before those outside: they cannot span a gap, and what they join makes no detour later.
+    through the inside come before those outside: they span no gap, and what they join makes no detour later.
     Triangles with a refused edge bridge, except the cheapest of those without which a part would come loose.
 
     stars : (t, 3), centre first. points, normals : (n, 3). spacing : (n,), mean distance to the next neighbours.
@@ -52,32 +63,61 @@ def bridging_triangles(
     keys, edge = np.unique(sides[:, 0] * count + sides[:, 1], return_inverse=True)
     edge = edge.reshape(-1, 3)
     ends = np.stack([keys // count, keys % count], axis=1)
-    length, cost, facing, outside = _lengths_and_costs(ends, points, normals)
-    reach = np.where(facing, FACING_DETOUR, DETOUR) * length
-    straight = _held_by_both(ends, stars, count) & (cost <= SURE_BEND * length)
-    taken = straight | ((cost <= SURE_COST * spacing[ends].max(axis=1)) & ~facing)
+    spacing = spacing[ends].max(axis=1)
+    chords = _Chords.of(ends, points, normals)
+    cost, outside = chords.cost, chords.outside
+    straight = _held_by_both(ends, stars, count) & (cost <= SURE_BEND * chords.length)
+    untested = ~chords.facing & (outside | (cost <= POOR_COST * chords.length))
+    taken = straight | (untested & (cost <= SURE_COST * spacing))
     taken[edge[sure]] = True
-    order = np.lexsort((cost, outside & (not estimated), facing))
-    taken = _grown(taken, ends, length, reach, order[~taken[order]])
+    order = np.lexsort((cost, outside & (not estimated), chords.facing))
+    taken = _grown(taken, ends, chords.length, _reaches(chords, spacing), order[~taken[order]])
     kept = _rejoined(np.asarray(taken[edge].all(axis=1)), stars, cost[edge].max(axis=1, initial=0.0), count)
     if np.count_nonzero(kept) < (1 - MOST_BRIDGES) * len(kept):
         return np.zeros(len(kept), dtype=bool)  # points too few to tell near from far: every way is a detour
     return np.asarray(~kept)
 
 
-def _lengths_and_costs(
-    ends: IntArray, points: FloatArray, normals: FloatArray
-) -> tuple[FloatArray, FloatArray, BoolArray, BoolArray]:
-    """Of each edge: length, cost, whether its ends face each other, and whether it runs outside of the surface."""
-    chord = points[ends[:, 1]] - points[ends[:, 0]]
-    length = np.linalg.norm(chord, axis=1)
-    chord /= length[:, None]
-    here, there = normals[ends[:, 0]], normals[ends[:, 1]]
-    heights = np.einsum("ei,ei->e", chord, here), np.einsum("ei,ei->e", chord, there)
-    steepness = np.maximum(heights[0] ** 2, heights[1] ** 2)
-    facing = np.minimum(heights[0], -heights[1]) > FACING
-    cost = length * (2 - reflected_cosines(chord, here, there) + steepness)
-    return length, cost, facing, heights[0] > heights[1]
+@dataclass(frozen=True, eq=False)
+class _Chords:
+    """Of each edge (e,): length, cost, and how it lies between the normals of its ends.
+
+    facing : whether these look at each other across it. outside : whether it runs outside of the surface.
+    crossing : whether it crosses the inside between opposed walls.
+    """
+
+    length: FloatArray
+    cost: FloatArray
+    facing: BoolArray
+    outside: BoolArray
+    crossing: BoolArray
+
+    @classmethod
+    def of(cls, ends: IntArray, points: FloatArray, normals: FloatArray) -> _Chords:
+        chord = points[ends[:, 1]] - points[ends[:, 0]]
+        length = np.linalg.norm(chord, axis=1)
+        chord /= length[:, None]
+        here, there = normals[ends[:, 0]], normals[ends[:, 1]]
+        rise, fall = np.einsum("ei,ei->e", chord, here), np.einsum("ei,ei->e", chord, there)
+        cost = length * (2 - reflected_cosines(chord, here, there) + np.maximum(rise**2, fall**2))
+        opposed = np.einsum("ei,ei->e", here, there) < 0
+        return cls(length, cost, np.minimum(rise, -fall) > FACING, rise > fall, opposed & (fall - rise > CROSSING))
+
+
+def _reaches(chords: _Chords, spacing: FloatArray) -> FloatArray:
+    """(e,): how long the detour between the ends of an edge may be if it is to lie on the surface.
+
+    `DETOUR` times its length, the fewer the more it costs beyond `POOR_COST`; `FACING_DETOUR` or `CROSSING_DETOUR`
+    times between opposed walls; but for edges shorter than `CROTCH` spacings at least `CROTCH_DETOUR` spacings.
+
+    spacing : (e,), mean distance to the next neighbours at the end where these are farther.
+    """
+    length = chords.length
+    detour = DETOUR * np.minimum(1.0, POOR_COST * length / chords.cost)
+    detour[chords.crossing] = np.minimum(detour[chords.crossing], CROSSING_DETOUR)
+    detour[chords.facing] = FACING_DETOUR
+    least = np.where(chords.facing & (length < CROTCH * spacing), CROTCH_DETOUR * spacing, 0.0)
+    return np.asarray(np.maximum(detour * length, least))
 
 
 def _held_by_both(ends: IntArray, stars: IntArray, count: int) -> BoolArray:
