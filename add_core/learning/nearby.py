@@ -6,6 +6,7 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from .._check import FloatArray, IntArray
+from ..errors import ParameterError
 from .training_set import PreparedShape
 
 CLUSTER, NEAREST = 5, 16
@@ -21,7 +22,7 @@ def nearby_pairs(
 
     positions : (P, 3), where each place is on the one body. Vertices of places from P on, or of none, are not drawn.
     Two shapes of one connectivity have exact counterparts; on others these are off by half an edge, like the answer
-    that is asked of a descriptor there.
+    that is asked of a descriptor there. Raises ParameterError for a shape of which no place has a position.
     """
     (known, tree), (others, other_tree) = (_on_body(shape, positions) for shape in (one, two))
     firsts = draw.integers(len(known), size=-(-count // CLUSTER))
@@ -38,4 +39,8 @@ def nearby_pairs(
 
 def _on_body(shape: PreparedShape, positions: FloatArray) -> tuple[IntArray, cKDTree]:
     known = np.flatnonzero((shape.places >= 0) & (shape.places < len(positions)))
+    if not len(known):
+        raise ParameterError(
+            f"positions must have a row for some place of {shape.name!r}, but there are only {len(positions)} rows."
+        )
     return known, cKDTree(positions[shape.places[known]])

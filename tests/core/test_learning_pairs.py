@@ -8,6 +8,7 @@ import torch
 from learning_inputs import made_up, numbered
 from numpy.testing import assert_allclose, assert_array_equal
 
+from add_core.errors import ParameterError
 from add_core.learning import InputRecipe, TrainingSettings
 from add_core.learning.architectures import Architecture, build
 from add_core.learning.objective import Objective, mirror_channels, negative_pairs
@@ -145,6 +146,8 @@ def test_places_that_the_body_does_not_have_are_not_drawn():
     batch = PairSampler([numbered(np.arange(60))] * 2, pairs=64, seed=0, positions=line).batch(0)
     assert batch.places.max() < 30
     assert batch.wrong_places.max() < 30
+    with pytest.raises(ParameterError, match="positions must have a row for some place of 'made up'"):
+        PairSampler([numbered(np.arange(40, 60))] * 2, pairs=8, seed=0, positions=line)
 
 
 @pytest.mark.parametrize("loss", ["soft-nearest", "siamese"])
