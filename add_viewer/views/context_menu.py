@@ -6,6 +6,7 @@ from PySide6.QtGui import QAction
 from PySide6.QtWidgets import QApplication, QMenu, QWidget
 
 from ..models.session import Session
+from .menu_entry import add_entry
 
 _ALWAYS = ("fit", "front", "arrows", "wireframe", "clear", "screenshot")
 
@@ -25,12 +26,12 @@ def context_menu(parent: QWidget, session: Session, actions: dict[str, QAction],
 def _offer_vertex(menu: QMenu, session: Session, key: str, vertex: int) -> None:
     state, pick = session.state, session.pick
     shape = state.shape(key)
-    menu.addAction(f"Pick vertex {vertex}").triggered.connect(lambda: pick(vertex, shape=key))
+    add_entry(menu, f"Pick vertex {vertex}").triggered.connect(lambda: pick(vertex, shape=key))
     if any(each.vertex == vertex for each in state.picks_on(key)):
-        menu.addAction("Remove this point").triggered.connect(lambda: session.unpick(vertex))
+        add_entry(menu, "Remove this point").triggered.connect(lambda: session.unpick(vertex))
     else:
-        menu.addAction("Add this point").triggered.connect(lambda: pick(vertex, add=True, shape=key))
+        add_entry(menu, "Add this point").triggered.connect(lambda: pick(vertex, add=True, shape=key))
     if shape is not None and shape.mirror(vertex) is not None:
-        menu.addAction("Add its mirror point").triggered.connect(lambda: session.pick_mirror(vertex, shape=key))
-    copy = menu.addAction(f"Copy the number {vertex}")
+        add_entry(menu, "Add its mirror point").triggered.connect(lambda: session.pick_mirror(vertex, shape=key))
+    copy = add_entry(menu, f"Copy the number {vertex}")
     copy.triggered.connect(lambda: QApplication.clipboard().setText(str(vertex)))

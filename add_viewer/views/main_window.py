@@ -30,6 +30,7 @@ from .aids import Aids
 from .context_menu import context_menu
 from .curve_panel import CurvePanel
 from .icons import icon
+from .menu_entry import add_entry
 from .menus import Menus
 from .message_bar import MessageBar
 from .panels import Panels
@@ -256,11 +257,11 @@ class MainWindow(QMainWindow):
         menu.clear()
         for reference in references:
             title = title_of(reference, self.start.galleries).replace("&", "&&")
-            menu.addAction(title).triggered.connect(lambda _checked, name=reference: self.open_requested.emit(name))
+            add_entry(menu, title).triggered.connect(lambda _checked, name=reference: self.open_requested.emit(name))
         menu.setEnabled(bool(references))
         if references:
             menu.addSeparator()
-            menu.addAction("Clear this list").triggered.connect(self._clear_recent)
+            add_entry(menu, "Clear this list").triggered.connect(self._clear_recent)
 
     def remember(self, reference: str) -> None:
         """Put a reference at the head of the recent ones."""

@@ -12,6 +12,7 @@ from add_core.geometry import TriangleMesh
 
 from ..models.session import Session
 from ..models.shapes import OpenShape
+from .menu_entry import add_entry
 from .theme import GRID
 
 _KEY = Qt.ItemDataRole.UserRole
@@ -187,14 +188,14 @@ class ShapeList(QListWidget):
             ("Move &down\tAlt+Down", row < len(state.shapes) - 1, lambda: self._lower(key)),
         )
         for words, can, do in offers:
-            action = menu.addAction(words)
+            action = add_entry(menu, words)
             action.setEnabled(can)
             action.triggered.connect(do)
         menu.addSeparator()
         for action in self._look_actions(shape, menu):
             menu.addAction(action)
         menu.addSeparator()
-        closing = menu.addAction(f"&Close {shape.name.replace('&', '&&')}\tDel")
+        closing = add_entry(menu, f"&Close {shape.name.replace('&', '&&')}\tDel")
         closing.triggered.connect(lambda: session.close_shape(key))
         menu.aboutToHide.connect(menu.deleteLater)
         return menu

@@ -130,7 +130,6 @@ def test_new_words_in_a_seen_label_change_no_layout(window, qtbot):
     window.centralWidget().layout().addWidget(label)
     assert label.sizeHint().width() < 200
     window.show()
-    qtbot.waitExposed(window)
     qtbot.wait(50)
     counted = Counted(window.centralWidget())
     label.setText("words " * 100)
