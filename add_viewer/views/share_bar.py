@@ -6,10 +6,10 @@ from PySide6.QtCore import QRectF, Qt, QTimer
 from PySide6.QtGui import QHideEvent, QPainter, QPaintEvent, QShowEvent
 from PySide6.QtWidgets import QProgressBar, QWidget
 
-STRIDE = 300
-"""Milliseconds between two places of the piece that walks along while nobody knows how far it is."""
+from .beat import PATIENCE
+
 _STEPS, _PIECE = 1000, 5
-"""The piece is one of so many parts of the bar."""
+"""The piece that walks along while nobody knows the share is one of so many parts of the bar."""
 
 
 class ShareBar(QProgressBar):
@@ -23,7 +23,7 @@ class ShareBar(QProgressBar):
         self.setTextVisible(False)
         self.setRange(0, _STEPS)
         self._is_known, self._place = True, 0
-        self._walk = QTimer(self, interval=STRIDE)
+        self._walk = QTimer(self, interval=PATIENCE)
         self._walk.timeout.connect(self._go_on)
 
     @property

@@ -9,7 +9,7 @@ from add_viewer.views.beat import PATIENCE, Beat
 from add_viewer.views.elided_label import ElidedLabel
 from add_viewer.views.job_status import JobStatus
 from add_viewer.views.jobs_panel import JobsPanel
-from add_viewer.views.share_bar import STRIDE, ShareBar
+from add_viewer.views.share_bar import ShareBar
 
 UPDATE, LAYOUT, PAINT = QEvent.Type.UpdateRequest, QEvent.Type.LayoutRequest, QEvent.Type.Paint
 
@@ -113,7 +113,7 @@ def test_a_bar_that_knows_no_share_walks_slowly_and_rests_when_hidden(screen, qt
     qtbot.wait(50)
     counted = Counted(bar)
     before = bar.grab().toImage()
-    qtbot.wait(2 * STRIDE)
+    qtbot.wait(2 * PATIENCE)
     assert 1 <= counted.of(PAINT) <= 5
     assert bar.is_walking
     assert bar.grab().toImage() != before
@@ -129,6 +129,7 @@ def test_new_words_in_a_seen_label_change_no_layout(window, qtbot):
     label = ElidedLabel("short")
     window.centralWidget().layout().addWidget(label)
     assert label.sizeHint().width() < 200
+    assert label.accessibleName() == "short"
     window.show()
     qtbot.wait(50)
     counted = Counted(window.centralWidget())
