@@ -115,6 +115,7 @@ class ShapeView(QWidget):
         else:
             kind = "points" if getattr(shape.shape, "faces", None) is None else "vertices"
             self.label.show_text(shape.name, f"{shape.vertex_count:,} {kind}")
+        self.canvas.setAccessibleName("No shape" if shape is None else f"View of {shape.name}")
         self._show_look()
         self._show_picks()
         self._show_field()

@@ -131,8 +131,8 @@ def test_a_vertex_without_an_exact_counterpart_is_paired_with_the_nearest_on_the
 
 
 def test_exact_counterparts_stay_exact_and_wrong_points_are_near_them():
-    line = np.column_stack([np.arange(60.0), np.zeros(60), np.zeros(60)])
-    batch = PairSampler([numbered(np.arange(60))] * 2, pairs=40, seed=0, positions=line).batch(1)
+    line = np.column_stack([np.arange(3000.0), np.zeros(3000), np.zeros(3000)])
+    batch = PairSampler([numbered(np.arange(3000))] * 2, pairs=40, seed=0, positions=line).batch(1)
     assert_array_equal(batch.one, batch.two)
     assert batch.wrong.shape == (20, 1, 1)
     assert_array_equal(batch.wrong[:, 0, 0], batch.wrong_places)
@@ -162,6 +162,10 @@ def test_points_around_the_true_one_raise_the_loss_where_they_are_confused_with_
         wrong = np.full((1, 1, 1), at, dtype=np.float32)
         return float(Objective(settings).loss(network, replace(apart, wrong=wrong, wrong_places=np.array([place])), 0))
 
+    mirrored = Objective(settings, np.arange(1))
+    wrong = {"wrong": np.full((1, 1, 1), 30.1, dtype=np.float32), "wrong_places": np.array([9])}
+    sided = replace(apart, mirror=np.arange(4)[::-1].copy())
+    assert float(mirrored.loss(network, replace(sided, **wrong), 0)) > float(mirrored.loss(network, sided, 0))
     without = float(Objective(settings).loss(network, apart, 0))
     assert with_wrong(30.1, 9) > without + 0.05
     assert with_wrong(30.1, 1) == pytest.approx(without, abs=1e-6)

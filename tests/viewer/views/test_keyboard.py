@@ -83,3 +83,27 @@ def test_nothing_is_done_to_shapes_unseen_and_escape_leads_back_to_them(person, 
     ]
     qtbot.keyClick(person.canvas, Qt.Key.Key_Escape)
     assert not person.session.state.active_picks
+
+
+@pytest.mark.parametrize("keys", [Qt.KeyboardModifier.NoModifier, Qt.KeyboardModifier.ShiftModifier])
+def test_arrows_move_what_is_seen_their_way_and_plus_and_minus_come_closer_and_go_away(person, qtbot, keys):
+    person.open()
+    canvas, shape = person.canvas, person.session.state.active.shape
+    eye = canvas.camera_model.axes[2]
+    nose = int((shape.vertices @ eye).argmax())  # the point nearest to the eye goes the way that the shape turns
+    for key, x, y in (
+        (Qt.Key.Key_Right, 1, 0),
+        (Qt.Key.Key_Left, -1, 0),
+        (Qt.Key.Key_Up, 0, -1),
+        (Qt.Key.Key_Down, 0, 1),
+    ):
+        before = canvas.place_of(nose)
+        qtbot.keyClick(canvas, key, keys)
+        moved = canvas.place_of(nose) - before
+        assert abs(moved.x()) > 5 if x else abs(moved.x()) < 5
+        assert moved.x() * x + moved.y() * y > 5
+    away = canvas.camera_model.distance
+    qtbot.keyClick(canvas, Qt.Key.Key_Plus)
+    assert canvas.camera_model.distance < 0.95 * away
+    qtbot.keyClick(canvas, Qt.Key.Key_Minus)
+    assert canvas.camera_model.distance == pytest.approx(away)

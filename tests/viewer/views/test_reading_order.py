@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 import numpy as np
 import pytest
 from PySide6.QtCore import QPoint, QRect, Qt, QTimer
-from PySide6.QtGui import QImage
+from PySide6.QtGui import QAccessible, QImage
 from PySide6.QtWidgets import QAbstractButton, QApplication, QDialog, QMainWindow, QPushButton, QToolButton, QWidget
 
 from add_viewer.models.fields import FieldChoice
@@ -109,6 +109,16 @@ def test_tab_goes_once_through_every_panel_as_one_reads_it(busy, qtbot):
         assert QApplication.focusWidget() is around.stops[0]
         assert walk(qtbot, Qt.Key.Key_Backtab).stops == [around.stops[0], *around.stops[:0:-1]]
         assert all(each.accessibleName() for each in around.stops if isinstance(each, QToolButton) and not each.text())
+
+
+def test_what_tab_reaches_is_scrolled_into_sight_and_has_a_name(busy, qtbot):
+    busy.window.resize(1024, 520)
+    busy.window.view.canvas.setFocus(Qt.FocusReason.TabFocusReason)
+    qtbot.wait(50)
+    stops = walk(qtbot).stops
+    assert busy.window.parameters.picks.field in stops
+    for each in stops:
+        assert QAccessible.queryAccessibleInterface(each).text(QAccessible.Text.Name), f"{name_of(each)} has no name"
 
 
 def test_a_floating_panel_is_gone_through_alone(busy, qtbot):
