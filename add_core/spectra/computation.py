@@ -14,11 +14,11 @@ from typing import Any
 import numpy as np
 
 from .._check import FloatArray
+from ..eigensolver.job import EIGENFUNCTIONS, SpectralJob
+from ..eigensolver.solver import PencilSolver
 from ..errors import Cancelled
 from .cache import Arrays, SpectraCache, remove_abandoned
-from .job import EIGENFUNCTIONS, SpectralJob
 from .processes import Solved, WorkerPool, WorkersUnavailable, solve_here
-from .solver import PencilSolver
 
 _log = logging.getLogger(__name__)
 

@@ -10,12 +10,12 @@ from typing import Literal, get_args
 import numpy as np
 
 from .._check import FloatArray, at_least_zero, count_in, instance_of, one_of, read_only
+from ..eigensolver.job import SpectralJob
 from ..errors import ParameterError
 from ..geometry import PointCloud, TriangleMesh
 from ..operators import AnisotropicLaplacian, Conductivity
 from .cache import SpectraCache
 from .computation import Progress, default_workers, run_job
-from .job import SpectralJob
 from .spectrum import Spectrum
 
 Precision = Literal["float64", "float32"]

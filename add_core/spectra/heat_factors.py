@@ -13,11 +13,11 @@ from scipy.sparse import csc_array
 from scipy.sparse.linalg import SuperLU, splu
 
 from .._check import FloatArray, IntArray
+from ..eigensolver.factorisation import Factorisation, factorise
+from ..eigensolver.fronts import FrontTree
+from ..eigensolver.ordering import known_dissection
 from ..operators import AnisotropicLaplacian
 from ..operators.pattern import SparsityPattern
-from .factorisation import Factorisation, factorise
-from .fronts import FrontTree
-from .ordering import known_dissection
 
 Progress = Callable[[int, int], None]
 """Told how many steps of how many are done; what it raises ends the computation."""

@@ -19,13 +19,13 @@ import numpy as np
 from threadpoolctl import threadpool_limits
 
 from .._check import FloatArray
+from ..eigensolver.job import SpectralJob
+from ..eigensolver.solver import PencilSolver
 from ..errors import ConvergenceError
-from .job import SpectralJob
-from .solver import PencilSolver
 
 _log = logging.getLogger(__name__)
 
-_START = "import json, sys; sys.path[:] = json.loads(sys.argv[1]); from add_core.spectra.worker import main; main()"
+_START = "import json, sys; sys.path[:] = json.loads(sys.argv[1]); from add_core.eigensolver.worker import main; main()"
 """The worker imports what the caller imports, from wherever the caller has it."""
 
 

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from threadpoolctl import threadpool_limits
 
 from .._check import FloatArray, count_in, finite, instance_of, read_only
+from ..eigensolver.solver import PencilSolver
 from ..operators import AnisotropicLaplacian
-from .solver import PencilSolver
 
 _log = logging.getLogger(__name__)
 

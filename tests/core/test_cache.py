@@ -159,7 +159,7 @@ def test_nothing_in_an_entry_can_run_code(store, caplog):
 KILLED = """
 import os, signal, sys
 from add_core.spectra import cache, compute_spectra
-from add_core.spectra.job import SpectralJob
+from add_core.eigensolver.job import SpectralJob
 from add_core.geometry.shapes import ellipsoid
 
 moment, steps = sys.argv[1], 0

@@ -5,13 +5,13 @@ import pytest
 from numpy.testing import assert_allclose
 from scipy.sparse import csr_array, diags_array
 
+from add_core.eigensolver import factorisation
+from add_core.eigensolver.factorisation import factorise, factorise_near
+from add_core.eigensolver.fronts import FrontTree
+from add_core.eigensolver.ordering import nested_dissection
 from add_core.errors import ConvergenceError
 from add_core.geometry.shapes import rectangle, sphere
 from add_core.operators import AnisotropicLaplacian
-from add_core.spectra import factorisation
-from add_core.spectra.factorisation import factorise, factorise_near
-from add_core.spectra.fronts import FrontTree
-from add_core.spectra.ordering import nested_dissection
 
 
 def standard_form(shape, *, alpha=20.0, theta=0.4) -> csr_array:

@@ -11,11 +11,12 @@ import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 
 import add_core
+from add_core.eigensolver import solver
 from add_core.errors import Cancelled, GeometryError, ParameterError
 from add_core.geometry import TriangleMesh
 from add_core.geometry.shapes import ellipsoid, sphere, torus
 from add_core.operators import AnisotropicLaplacian
-from add_core.spectra import computation, compute_spectra, compute_spectrum, processes, solver
+from add_core.spectra import computation, compute_spectra, compute_spectrum, processes
 
 SHAPE = ellipsoid(1.0, 0.8, 0.5, subdivisions=3)
 ROOT = Path(add_core.__file__).parents[1]
@@ -176,7 +177,7 @@ def test_a_script_without_a_main_guard_runs_once(tmp_path):
 def test_a_worker_does_not_count_the_memory_of_whoever_started_it():
     """`ru_maxrss` of a process starts at its parent's peak: a caller with large arrays made every worker look large."""
     ballast = np.ones(60_000_000)
-    said = "from add_core.spectra.worker import _peak_megabytes; print(_peak_megabytes())"
+    said = "from add_core.eigensolver.worker import _peak_megabytes; print(_peak_megabytes())"
     environment = os.environ | {"PYTHONPATH": str(ROOT)}
     done = subprocess.run([sys.executable, "-c", said], capture_output=True, text=True, env=environment, check=True)
     assert 10 < float(done.stdout) < ballast.nbytes / 2**20

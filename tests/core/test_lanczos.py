@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
+from add_core.eigensolver.lanczos import shift_invert_lanczos
 from add_core.errors import ConvergenceError
-from add_core.spectra.lanczos import shift_invert_lanczos
 
 
 def solve_with(spectrum, turn, shift):

@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 from numpy.testing import assert_array_equal
 
+from add_core.eigensolver.ordering import Dissection, known_dissection, nested_dissection
 from add_core.geometry import TriangleMesh
 from add_core.geometry.shapes import rectangle, sphere
 from add_core.operators import SparsityPattern
-from add_core.spectra.ordering import Dissection, known_dissection, nested_dissection
 
 
 def pattern_of(mesh: TriangleMesh) -> SparsityPattern:

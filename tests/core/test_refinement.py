@@ -5,13 +5,13 @@ import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 from scipy.sparse import csr_array
 
+from add_core.eigensolver.factorisation import factorise_near
+from add_core.eigensolver.fronts import FrontTree
+from add_core.eigensolver.ordering import nested_dissection
+from add_core.eigensolver.refinement import RESIDUAL, StandardPairs, failing, orient, repaired, residual_norms
 from add_core.errors import ConvergenceError
 from add_core.geometry.shapes import ellipsoid
 from add_core.operators import AnisotropicLaplacian
-from add_core.spectra.factorisation import factorise_near
-from add_core.spectra.fronts import FrontTree
-from add_core.spectra.ordering import nested_dissection
-from add_core.spectra.refinement import RESIDUAL, StandardPairs, failing, orient, repaired, residual_norms
 
 COUNT = 40
 

@@ -6,11 +6,12 @@ from numpy.testing import assert_allclose
 from scipy.linalg import eigh
 
 from add_core.descriptors import geometry_vectors
+from add_core.eigensolver import dense
 from add_core.errors import ConvergenceError
 from add_core.geometry import TriangleMesh
 from add_core.geometry.shapes import ellipsoid, sphere
 from add_core.operators import AnisotropicLaplacian
-from add_core.spectra import HeatFlow, compute_spectra, compute_spectrum, dense
+from add_core.spectra import HeatFlow, compute_spectra, compute_spectrum
 
 
 def with_flap(mesh, height, *, at=0.3, moved=0.0):

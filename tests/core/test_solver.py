@@ -4,12 +4,13 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
+from add_core.eigensolver import solver
+from add_core.eigensolver.solver import PencilSolver
 from add_core.errors import ConvergenceError
 from add_core.geometry import TriangleMesh
 from add_core.geometry.shapes import cylinder, ellipsoid, rectangle, sphere, torus
 from add_core.operators import AnisotropicLaplacian
-from add_core.spectra import compute_spectrum, solver
-from add_core.spectra.solver import PencilSolver
+from add_core.spectra import compute_spectrum
 
 
 def copies(mesh: TriangleMesh, number: int) -> TriangleMesh:

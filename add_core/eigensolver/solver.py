@@ -82,6 +82,7 @@ class PencilSolver:
 
     @cached_property
     def active(self) -> BoolArray:
+        """(n,): vertices that have mass."""
         return self.mass > 0
 
     @cached_property
