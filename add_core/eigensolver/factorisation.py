@@ -61,14 +61,19 @@ class Factorisation:
         return x
 
     def _substituted(self, right: FloatArray) -> FloatArray:
-        x = np.zeros((self.tree.workspace, right.shape[1]))
-        x[self.tree.places] = right
-        steps = list(zip(self.tree.groups, self.inverses, self.couplings, strict=True))
-        for group, _, coupling in steps:
-            group.subtract(x, coupling @ group.own_rows(x))
-        for group, inverse, coupling in reversed(steps):
-            own = group.own_rows(x)
-            np.subtract(inverse @ own, coupling.transpose(0, 2, 1) @ group.rest_rows(x), out=own)
+        held = np.empty((self.tree.held, right.shape[1]))
+        held[: len(right)] = right
+        eliminated = []
+        for group, coupling in zip(self.tree.groups, self.couplings, strict=True):
+            own = group.gathered(held)
+            np.matmul(coupling, own, out=group.own_shares(held))
+            eliminated.append(own)
+        x = np.empty((self.tree.workspace, right.shape[1]))
+        x[-1] = 0.0
+        steps = zip(self.tree.groups, self.inverses, self.couplings, eliminated, strict=True)
+        for group, inverse, coupling, own in reversed(list(steps)):
+            found = np.matmul(inverse, own, out=group.own_rows(x))
+            found -= coupling.transpose(0, 2, 1) @ group.rest_rows(x)
         return np.take(x, self.tree.places, axis=0)
 
 

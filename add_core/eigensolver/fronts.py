@@ -34,26 +34,29 @@ class ChildBlock:
 class FrontGroup:
     """Fronts that are treated by one call, padded to one size.
 
-    Vectors are solved in a workspace: each group's own rows lie together with their padding, one row of zeros last.
+    The solution grows in a workspace: each group's own rows lie together with their padding, one row of zeros last.
+    What leads to it is held in another array: the right-hand side (n, p), then the shares (c, r, p) of group after
+    group that its fronts subtract from rows further up.
 
     first : where its own rows begin in the workspace. fronts, size : c of them, s rows each.
     rest : (c, r) the workspace rows that each front touches further up; padding points to the row of zeros.
+    gather : (c·s, held) of 1 and −1: own rows of the right-hand side minus the shares that lower fronts have in them.
+    shares : where in the held array its shares begin.
     slots, entries : flat positions in (c, s + r, s + r) and the entries (of nnz) of A that belong there.
     padding : flat positions of the ones that keep padded pivots regular.
     children : what lower groups add.
-    targets, gather : workspace rows touched by any front, and the 0-1 matrix that sums their shares.
     """
 
     first: int
     fronts: int
     size: int
     rest: IntArray
+    gather: csr_array
+    shares: int
     slots: IntArray
     entries: IntArray
     padding: IntArray
     children: tuple[ChildBlock, ...]
-    targets: IntArray
-    gather: csr_array
 
     def own_rows(self, x: FloatArray) -> FloatArray:
         """(c, s, p): a view of the workspace x."""
@@ -63,11 +66,13 @@ class FrontGroup:
         """(c, r, p): a copy of the rows of x further up."""
         return np.take(x, self.rest, axis=0)
 
-    def subtract(self, x: FloatArray, shares: FloatArray) -> None:
-        """Subtract (c, r, p) from the rows of x further up."""
-        if self.fronts > 1:
-            shares = self.gather @ shares.reshape(-1, shares.shape[2])
-        x[self.targets] = np.take(x, self.targets, axis=0) - shares.reshape(-1, x.shape[1])
+    def gathered(self, held: FloatArray) -> FloatArray:
+        """(c, s, p): the own rows of the right-hand side after the elimination of all lower fronts."""
+        return np.asarray(self.gather @ held).reshape(self.fronts, self.size, held.shape[1])
+
+    def own_shares(self, held: FloatArray) -> FloatArray:
+        """(c, r, p): a view of the held array."""
+        return held[self.shares : self.shares + self.rest.size].reshape(*self.rest.shape, held.shape[1])
 
 
 @dataclass(frozen=True, eq=False)
@@ -75,7 +80,8 @@ class FrontTree:
     """Everything about a factorisation that follows from the pattern (indptr, indices) of A alone.
 
     dissection : the order of elimination. diagonal : (n,) the diagonal entries of A. groups : lowest first.
-    places : (n,) where each row, in the tree's order, lies in the workspace of `workspace` rows.
+    places : (n,) where each row, in the tree's order, lies in the workspace of `workspace` rows. held : rows of the
+        array of right-hand sides and shares.
     ordered_indptr, ordered_indices, ordered_entries : the pattern in the tree's order, and which entry of A goes where.
     """
 
@@ -86,6 +92,7 @@ class FrontTree:
     groups: tuple[FrontGroup, ...]
     places: IntArray
     workspace: int
+    held: int
     ordered_indptr: IntArray
     ordered_indices: IntArray
     ordered_entries: IntArray
@@ -112,6 +119,7 @@ class FrontTree:
             groups=layout.groups,
             places=read_only(layout.places),
             workspace=layout.workspace,
+            held=layout.held,
             ordered_indptr=np.searchsorted(edges[entries, 0], np.arange(n + 1)),
             ordered_indices=edges[entries, 1],
             ordered_entries=entries,
@@ -157,7 +165,14 @@ class _Layout:
         batches = self._all_batches(_heights(dissection))
         self.places = np.empty(len(dissection.permutation), dtype=np.int64)
         self.workspace = self._place(batches) + 1
-        self.groups = tuple(self._group(number, batch) for number, batch in enumerate(batches))
+        rests = [self._rest_rows(batch) for batch in batches]
+        shares = np.cumsum([len(self.places), *(rest.size for rest in rests)])
+        self.held = int(shares[-1])
+        gather = self._gathering(rests)
+        self.groups = tuple(
+            self._group(number, batch, rests[number], gather, int(shares[number]))
+            for number, batch in enumerate(batches)
+        )
 
     def _sizes(self, batch: IntArray) -> tuple[int, int]:
         owns, rests = np.diff(self._starts)[batch], [len(self._rests[i]) for i in batch]
@@ -185,10 +200,23 @@ class _Layout:
             row += len(batch) * size
         return row
 
-    def _group(self, number: int, batch: IntArray) -> FrontGroup:
+    def _rest_rows(self, batch: IntArray) -> IntArray:
+        """(c, r): workspace rows, those of each front ascending, then the row of zeros as padding."""
+        rows = np.full((len(batch), self._sizes(batch)[1]), self.workspace - 1)
+        for k, i in enumerate(batch):
+            rows[k, : len(self._rests[i])] = self.places[self._rests[i]]
+        return read_only(rows)
+
+    def _gathering(self, rests: list[IntArray]) -> csr_array:
+        """(workspace, held): 1 where a row takes its right-hand side, −1 where it takes a front's share."""
+        rows = np.concatenate([self.places, *(rest.ravel() for rest in rests)])
+        taken = np.flatnonzero(rows < self.workspace - 1)
+        signs = np.where(taken < len(self.places), 1.0, -1.0)
+        return csr_array((signs, (rows[taken], taken)), shape=(self.workspace, self.held))
+
+    def _group(self, number: int, batch: IntArray, rest: IntArray, gather: csr_array, shares: int) -> FrontGroup:
         s, r = self._sizes(batch)
-        zeros = self.workspace - 1
-        rest = np.full((len(batch), r), zeros)
+        first = self._firsts[number]
         slots, padding, blocks = [], [], []
         for k, i in enumerate(batch):
             begin, end, after = self._starts[i], self._starts[i + 1], self._rests[i]
@@ -196,34 +224,24 @@ class _Layout:
             def place(rows: IntArray, begin: int = begin, end: int = end, after: IntArray = after) -> IntArray:
                 return np.where(rows < end, rows - begin, s + np.searchsorted(after, rows))
 
-            rest[k, : len(after)] = self.places[after]
             base = k * (s + r) ** 2
             row, column = place(self._edges[self._entries[i]]).T
             slots.append(base + row * (s + r) + column)
             padding.append(base + np.arange(end - begin, s) * (s + r + 1))
             for child in self._children[i]:
                 blocks.append(ChildBlock(*self._home[child], parent=k, positions=place(self._rests[child])))
-        targets, gather = _gathering(rest, zeros)
         return FrontGroup(
-            first=self._firsts[number],
+            first=first,
             fronts=len(batch),
             size=s,
-            rest=read_only(rest),
+            rest=rest,
+            gather=gather[first : first + len(batch) * s],
+            shares=shares,
             slots=np.concatenate(slots),
             entries=np.concatenate([self._entries[i] for i in batch]),
             padding=np.concatenate(padding),
             children=tuple(blocks),
-            targets=targets,
-            gather=gather,
         )
-
-
-def _gathering(rest: IntArray, zeros: int) -> tuple[IntArray, csr_array]:
-    if len(rest) == 1:
-        return rest[0], csr_array((1, 1))
-    valid = rest.ravel() < zeros
-    targets, target = np.unique(rest.ravel()[valid], return_inverse=True)
-    return targets, csr_array((np.ones(len(target)), (target, np.flatnonzero(valid))), shape=(len(targets), rest.size))
 
 
 def _batches(members: IntArray, owns: IntArray, rests: IntArray) -> Iterator[IntArray]:

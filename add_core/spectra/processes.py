@@ -29,6 +29,15 @@ _START = "import json, sys; sys.path[:] = json.loads(sys.argv[1]); from add_core
 """The worker imports what the caller imports, from wherever the caller has it."""
 
 
+_ONE_THREAD = dict.fromkeys(
+    ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "VECLIB_MAXIMUM_THREADS"), "1"
+)
+_KEPT_MEMORY = {"MALLOC_MMAP_THRESHOLD_": str(2**25), "MALLOC_TRIM_THRESHOLD_": str(2**29)}
+"""glibc keeps what an operator frees for the next one: faulting it in anew is a twentieth of the work. Arrays above
+32 MB, the most that it accepts here, still return to the system, so that peaks stay low on large shapes.
+"""
+
+
 class WorkersUnavailable(RuntimeError):
     """Worker processes cannot be started or died; the work can still be done here."""
 
@@ -132,9 +141,6 @@ class WorkerPool:
 
 
 def _start(said: IO[str]) -> subprocess.Popen[str]:
-    single = dict.fromkeys(
-        ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "VECLIB_MAXIMUM_THREADS"), "1"
-    )
     return subprocess.Popen(
         [sys.executable, "-P", "-c", _START, json.dumps(sys.path)],
         stdin=subprocess.PIPE,
@@ -142,7 +148,7 @@ def _start(said: IO[str]) -> subprocess.Popen[str]:
         stderr=said,
         text=True,
         encoding="utf-8",
-        env=os.environ | single,
+        env=os.environ | _ONE_THREAD | _KEPT_MEMORY,
         creationflags=getattr(subprocess, "CREATE_NO_WINDOW", 0),
     )
 
