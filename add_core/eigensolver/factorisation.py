@@ -38,7 +38,8 @@ class Factorisation:
     inverses : per group of fronts (c, s, s), the inverse of what is eliminated.
     couplings : per group of fronts (c, r, s), what remains of a front against what is eliminated, times the inverse.
     negatives : how many eigenvalues of A lie below the shift (Sylvester's law of inertia); −1 if not counted.
-    matrix : A in the tree's order. refined : whether every solution is improved by one step of iterative refinement.
+    values : (nnz,) of A on the tree's pattern. matrix : A in the tree's order.
+    refined : whether every solution is improved by one step of iterative refinement.
     """
 
     tree: FrontTree
@@ -46,6 +47,7 @@ class Factorisation:
     inverses: tuple[FloatArray, ...]
     couplings: tuple[FloatArray, ...]
     negatives: int
+    values: FloatArray
     matrix: csr_array
     refined: bool = False
 
@@ -111,7 +113,8 @@ def factorise(
             negatives += sum(_negative_pivots(block) for block in pivot)
     ordered = (values[tree.ordered_entries], tree.ordered_indices, tree.ordered_indptr)
     matrix = csr_array(ordered, shape=(tree.size, tree.size))
-    return Factorisation(tree, shift, tuple(inverses), tuple(couplings), negatives if count else -1, matrix)
+    counted = negatives if count else -1
+    return Factorisation(tree, shift, tuple(inverses), tuple(couplings), counted, values, matrix)
 
 
 def _assemble(group: FrontGroup, values: FloatArray, remainders: list[FloatArray]) -> FloatArray:

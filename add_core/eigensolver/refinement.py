@@ -10,7 +10,6 @@ from scipy.sparse import csr_array
 from .._check import BoolArray, FloatArray
 from ..errors import ConvergenceError
 from .factorisation import Factorisation, factorise_near
-from .fronts import FrontTree
 
 RESIDUAL = 1e-6
 """‖W φ − λ S φ‖ in the norm of S⁻¹, relative to λ, that every eigenpair keeps."""
@@ -55,19 +54,20 @@ def failing(matrix: csr_array, pairs: StandardPairs) -> BoolArray:
     return bad
 
 
-def repaired(factors: Factorisation, matrix: csr_array, kernel: FloatArray, pairs: StandardPairs) -> StandardPairs:
+def repaired(factors: Factorisation, kernel: FloatArray, pairs: StandardPairs) -> StandardPairs:
     """Pairs that all pass, by the factorisation that found them and, for the lowest, by one just below zero.
 
+    kernel : (c, n), and the vectors of pairs: in the tree's order.
     Raises ConvergenceError if that does not help; the Lanczos basis was then too poor to be mended.
     """
-    pairs = _orthonormal(pairs)
+    matrix, pairs = factors.matrix, _orthonormal(pairs)
     bad = failing(matrix, pairs)
     mended = bool(bad.any())
     if mended:
         pairs = _polished(factors, pairs, bad)
         bad = failing(matrix, pairs)
     if bad.any() and not bad[len(bad) // 2 :].any():  # the upper half would hardly improve from below zero
-        pairs = _improved(factors.tree, matrix, kernel, pairs, count=int(np.flatnonzero(bad)[-1]) + 1)
+        pairs = _improved(factors, kernel, pairs, count=int(np.flatnonzero(bad)[-1]) + 1)
         bad = failing(matrix, pairs)
     if bad.any():
         raise ConvergenceError(f"{bad.sum()} of {len(bad)} eigenpairs miss a residual of {RESIDUAL:.0e}.")
@@ -82,9 +82,7 @@ def _polished(factors: Factorisation, pairs: StandardPairs, bad: BoolArray) -> S
     Summing a vector from the basis leaves rounding of the size of its largest entry everywhere. At the tiny vertices of
     slivers A multiplies that by many orders of magnitude, while solving with A damps it as much.
     """
-    order = factors.tree.dissection.permutation
-    solved = np.empty((len(order), int(bad.sum())))
-    solved[order] = factors.refining().solve(pairs.vectors[order][:, bad])
+    solved = factors.refining().solve(pairs.vectors[:, bad])
     vectors = pairs.vectors.copy()
     vectors[:, bad] = solved * (np.sign(pairs.values[bad] - factors.shift) / np.linalg.norm(solved, axis=0))
     return StandardPairs(pairs.values, vectors)
@@ -104,21 +102,17 @@ def _orthonormal(pairs: StandardPairs) -> StandardPairs:
     return StandardPairs(pairs.values, np.linalg.solve(triangle, u.T).T)
 
 
-def _improved(
-    tree: FrontTree, matrix: csr_array, kernel: FloatArray, pairs: StandardPairs, *, count: int
-) -> StandardPairs:
+def _improved(factors: Factorisation, kernel: FloatArray, pairs: StandardPairs, *, count: int) -> StandardPairs:
     """A few inverse iterations just below zero on the lowest `count` pairs, kept orthogonal to all others."""
-    order = tree.dissection.permutation
-    factors = factorise_near(tree, matrix.data, -0.01 * float(pairs.values[-1]))
+    below = factorise_near(factors.tree, factors.values, -0.01 * float(pairs.values[-1]))
     low, others = pairs.vectors[:, :count], np.vstack([kernel, pairs.vectors[:, count:].T])
     for _ in range(5):
-        solved = np.empty_like(low)
-        solved[order] = factors.solve(low[order])
+        solved = below.solve(low)
         for _ in range(2):
             solved = solved - others.T @ (others @ solved)
             solved = np.linalg.qr(solved)[0]
         low = solved
-    values, mixing = np.linalg.eigh(low.T @ (matrix @ low))
+    values, mixing = np.linalg.eigh(low.T @ (factors.matrix @ low))
     return StandardPairs(
         np.concatenate([values, pairs.values[count:]]), np.column_stack([low @ mixing, pairs.vectors[:, count:]])
     )

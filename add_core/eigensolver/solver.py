@@ -46,6 +46,15 @@ class Eigenpairs:
 
 
 @dataclass(frozen=True, eq=False)
+class _Found:
+    """Pairs beside the kernel. order : (n,), the active vertex of each row of their vectors."""
+
+    pairs: StandardPairs
+    order: IntArray
+    fallback: str = ""
+
+
+@dataclass(frozen=True, eq=False)
 class PencilSolver:
     """Solves W φ = λ S φ for any positive semi-definite W on one pattern; the symbolic work is done once, on first use.
 
@@ -72,13 +81,17 @@ class PencilSolver:
         standard = values[self._entries] / (root[rows] * root[self._indices])
         matrix = csr_array((standard, self._indices, self._indptr), shape=(len(root), len(root)))
         kernel = _kernel(matrix, root)[:count]
-        pairs, fallback = self._beside_kernel(matrix, kernel, count - len(kernel), scale)
-        functions = np.zeros((len(self.mass), count))
-        functions[self.active, : len(kernel)] = kernel.T / root[:, None]
-        functions[self.active, len(kernel) :] = pairs.vectors / root[:, None]
+        found = self._beside_kernel(matrix, kernel, count - len(kernel), scale)
+        functions = np.empty((len(self.mass), count))
+        functions[~self.active] = 0.0
+        vertices = np.flatnonzero(self.active)
+        functions[vertices, : len(kernel)] = kernel.T / root[:, None]
+        vectors = found.pairs.vectors  # ours to change
+        vectors /= root[found.order, None]
+        functions[vertices[found.order], len(kernel) :] = vectors
         orient(functions[:, len(kernel) :])
-        values = np.concatenate([np.zeros(len(kernel)), np.maximum(pairs.values, 0.0)])
-        return Eigenpairs(values, functions, fallback)
+        values = np.concatenate([np.zeros(len(kernel)), np.maximum(found.pairs.values, 0.0)])
+        return Eigenpairs(values, functions, found.fallback)
 
     @cached_property
     def active(self) -> BoolArray:
@@ -113,19 +126,19 @@ class PencilSolver:
         """The order of elimination, to be handed to another solver on the same pattern."""
         return self.dissection or known_dissection(self._indptr, self._indices)
 
-    def _beside_kernel(
-        self, matrix: csr_array, kernel: FloatArray, count: int, scale: float
-    ) -> tuple[StandardPairs, str]:
+    def _beside_kernel(self, matrix: csr_array, kernel: FloatArray, count: int, scale: float) -> _Found:
         """The `count` smallest positive eigenpairs and, where Lanczos failed, what was used instead."""
         n = len(kernel.T)
+        as_given = np.arange(n)
         if count == 0:
-            return StandardPairs(np.empty(0), np.empty((n, 0))), ""
+            return _Found(StandardPairs(np.empty(0), np.empty((n, 0))), as_given)
         if n <= DENSE_SIZE or 2.2 * count + 200 > 0.75 * n:
-            return dense_pairs(matrix, kernel, count, scale), ""
+            return _Found(dense_pairs(matrix, kernel, count, scale), as_given)
         shift, problem = SHIFT * scale, ""
         for block, always in ((12, False), (16, True), (32, True)):
             try:
-                return self._by_lanczos(matrix, kernel, count, shift, block=block, always=always), ""
+                pairs = self._by_lanczos(matrix.data, kernel, count, shift, block=block, always=always)
+                return _Found(pairs, self.tree.dissection.permutation)
             except (ConvergenceError, np.linalg.LinAlgError) as error:
                 problem = str(error)
                 _log.info("blocks of %d: %s", block, problem)
@@ -133,8 +146,8 @@ class PencilSolver:
         method = "dense eigensolver" if n <= DENSE_RESCUE else "scipy.sparse.linalg.eigsh"
         _log.warning("Block Lanczos failed (%s) Using the %s instead.", problem, method)
         if n <= DENSE_RESCUE:
-            return dense_pairs(matrix, kernel, count, scale), method
-        return _by_arpack(matrix, kernel, count, scale), method
+            return _Found(dense_pairs(matrix, kernel, count, scale), as_given, method)
+        return _Found(_by_arpack(matrix, kernel, count, scale), as_given, method)
 
     def _balanced_shift(self, values: FloatArray, shift: float, count: int) -> float:
         """A shift with somewhat more than half of the wanted eigenvalues below it, where `scale` was far off."""
@@ -149,13 +162,15 @@ class PencilSolver:
         return 1.003 * shift  # not the very shift that failed
 
     def _by_lanczos(
-        self, matrix: csr_array, kernel: FloatArray, count: int, shift: float, *, block: int, always: bool
+        self, values: FloatArray, kernel: FloatArray, count: int, shift: float, *, block: int, always: bool
     ) -> StandardPairs:
+        """Verified pairs, in the tree's order."""
         order = self.tree.dissection.permutation
-        factors = factorise_near(self.tree, matrix.data, shift)
+        kernel = np.ascontiguousarray(kernel[:, order])
+        factors = factorise_near(self.tree, values, shift)
         ritz = shift_invert_lanczos(
             factors.solve,
-            np.ascontiguousarray(kernel[:, order]),
+            kernel,
             count,
             shift=factors.shift,
             block=block,
@@ -165,10 +180,8 @@ class PencilSolver:
             floor=1e-6 * shift,
             always=always,
         )
-        self._count_check(matrix.data, ritz, count, len(kernel))
-        vectors = np.empty_like(ritz.vectors)
-        vectors[order] = ritz.vectors
-        return repaired(factors, matrix, kernel, StandardPairs(ritz.values[:count], vectors))
+        self._count_check(values, ritz, count, len(kernel))
+        return repaired(factors, kernel, StandardPairs(ritz.values[:count], ritz.vectors))
 
     def _count_check(self, values: FloatArray, ritz: RitzPairs, count: int, kernel: int) -> None:
         """Raise ConvergenceError unless Sylvester's inertia finds as many eigenvalues as Lanczos did."""
