@@ -26,9 +26,6 @@ Beyond 5 the start consists of the nearest few eigenvectors only, and saves noth
 STEEP = 1e-2
 """Rows that depend on each other more than this are orthonormalised twice: once leaves rounding over STEEP²."""
 
-PART = 512
-"""Rows of eigenvectors that are formed at a time."""
-
 LOST = 1e-6
 """Overlaps larger than this have spoilt the projected matrix already: only a new start helps."""
 
@@ -128,11 +125,8 @@ class _Convergence:
     mixing: FloatArray  # (rows of the basis with the last block, count)
 
     def with_vectors(self, basis: _Basis) -> RitzPairs:
-        # The product of contiguous rows is a third faster than that of columns, the copy of a part in cache included.
-        rows, mixing = basis.rows, np.ascontiguousarray(self.mixing.T)
-        vectors = np.empty((rows.shape[1], len(mixing)))
-        for begin in range(0, len(vectors), PART):
-            vectors[begin : begin + PART] = (mixing @ rows[:, begin : begin + PART]).T
+        # The product of contiguous rows is a fifth faster than that of columns, the copy included.
+        vectors = np.ascontiguousarray((self.mixing.T @ basis.rows).T)
         return RitzPairs(self.values, vectors, self.estimate, basis.size)
 
 
