@@ -23,6 +23,9 @@ ORTHONORMAL = 1e-9
 COLUMNS = 64
 """Residuals are formed for this many columns at a time, which keeps memory small and the columns in cache."""
 
+ROWS = 256
+"""Signs are looked for in this many rows at a time."""
+
 
 @dataclass(frozen=True, eq=False)
 class StandardPairs:
@@ -124,12 +127,15 @@ def orient(functions: FloatArray) -> None:
     A threshold, unlike the largest entry itself, does not waver between the two poles of a symmetric shape.
     """
     half = 0.5 * np.maximum(functions.max(axis=0, initial=0.0), -functions.min(axis=0, initial=0.0))
-    signs = np.zeros(functions.shape[1])
-    for begin in range(0, len(functions), COLUMNS):
-        if signs.all():
+    signs = np.ones(functions.shape[1])
+    unknown = np.arange(len(signs))
+    for begin in range(0, len(functions), ROWS):
+        rows = functions[begin : begin + ROWS, unknown]
+        large = np.abs(rows) > half[unknown]
+        first = np.argmax(large, axis=0)
+        known = np.flatnonzero(large[first, np.arange(len(unknown))])
+        signs[unknown[known]] = np.sign(rows[first[known], known])
+        unknown = np.delete(unknown, known)
+        if len(unknown) == 0:
             break
-        rows = functions[begin : begin + COLUMNS]
-        large = np.abs(rows) > half
-        first = rows[np.argmax(large, axis=0), np.arange(len(signs))]
-        signs = np.where((signs == 0) & large.any(axis=0), np.sign(first), signs)
-    functions *= np.where(signs < 0, -1.0, 1.0)
+    functions *= signs

@@ -16,7 +16,7 @@ from ..errors import ConvergenceError
 from .dense import dense_pairs
 from .factorisation import factorise, factorise_near
 from .fronts import FrontTree
-from .lanczos import SMOOTHING, RitzPairs, shift_invert_lanczos
+from .lanczos import RitzPairs, shift_invert_lanczos
 from .ordering import Dissection, known_dissection
 from .refinement import RESIDUAL, StandardPairs, orient, repaired
 
@@ -174,7 +174,7 @@ class PencilSolver:
             count,
             shift=factors.shift,
             block=block,
-            first_check=len(kernel) + max(int(1.91 * count) - SMOOTHING * block, count + 8 * block),
+            first_check=len(kernel) + int(1.55 * count) + 6 * block,  # about what half of all operators need
             most=min(len(kernel) + 4 * count + 30 * block, len(order) - 2 * block),
             tolerance=0.7 * RESIDUAL,
             floor=1e-6 * shift,
