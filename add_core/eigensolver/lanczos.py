@@ -4,7 +4,7 @@ Basis vectors are kept as contiguous rows, so that every product streams memory.
 the two before it; only two blocks of every four are made orthogonal to all others as well, which keeps the basis
 semi-orthogonal (Simon 1984; Grimes, Lewis and Simon 1994). Between such passes overlaps grow fastest along the
 eigenvectors nearest to the shift, so that every block is made orthogonal to these (Parlett and Scott 1979). A guard
-watches what the next full pass finds and falls back to passing every time.
+watches what the next full pass finds and lets fewer blocks or none go without.
 """
 
 from __future__ import annotations
@@ -17,8 +17,11 @@ import numpy as np
 from .._check import FloatArray
 from ..errors import ConvergenceError
 
-LOOSE = 3e-8
-"""A full pass that finds overlaps larger than this came late: from then on every block gets one."""
+SKIPPED = 2
+"""Blocks without a full pass after every two with one."""
+
+CLOSE, LOOSE = 2e-10, 3e-8
+"""A full pass that finds overlaps larger than this came late: from then on one block is skipped at a time, or none."""
 
 NEAREST = 32
 """Ritz vectors nearest to the shift against which every block is made orthogonal. Without them two steps multiply
@@ -152,8 +155,9 @@ class _Basis:
         self._t = np.zeros((most + block, most + block))
         self._q[:c] = kernel
         self._t[np.arange(c), np.arange(c)] = -1.0 / shift  # (A − σI)⁻¹ k = −k/σ
-        self._shift, self._block, self._always = shift, block, always
-        self._step = 0
+        self._shift, self._block = shift, block
+        self._skipped = 0 if always else SKIPPED
+        self._turn = 0  # 0 and 1 pass over the whole basis, the next `_skipped` do not
         self._nearest: tuple[FloatArray, FloatArray] | None = None
         self._kernel_rows = self.size = c
         self._append(start)
@@ -172,9 +176,9 @@ class _Basis:
         overlaps[:, low:] = new @ q[low:].T
         new -= overlaps[:, low:] @ q[low:]
         left = float(np.linalg.norm(new))  # less than `rounding` where the space is exhausted
-        if self._step == SETTLED and not self._always:
+        if j == self._kernel_rows + SETTLED * b and self._skipped:
             self._nearest = self._nearest_ritz_vectors()
-        if self._always or self._nearest is None or left < rounding or self._step % 4 < 2:
+        if self._nearest is None or self._turn < 2 or left < rounding:
             found = new @ q.T
             new -= found @ q
             overlaps += found
@@ -190,7 +194,7 @@ class _Basis:
         self._t[j : j + b, : j + b] = overlaps
         self._t[: j + b, j : j + b] = overlaps.T
         self.size += b
-        self._step += 1
+        self._turn = (self._turn + 1) % (2 + self._skipped)
         self._append(new)
 
     def _nearest_ritz_vectors(self) -> tuple[FloatArray, FloatArray]:
@@ -202,9 +206,10 @@ class _Basis:
         return rows, rows @ self._q[:j]
 
     def _watch(self, overlap: float) -> None:
-        if overlap > LOST and not self._always:
+        if overlap > LOST and self._skipped:
             raise ConvergenceError(f"Lanczos vectors overlap by {overlap:.1e}: a shift too close to an eigenvalue.")
-        self._always |= overlap > LOOSE
+        if overlap > CLOSE:
+            self._skipped = min(self._skipped, 0 if overlap > LOOSE else 1)
 
     def _append(self, new: FloatArray) -> None:
         """Let an orthonormal basis of the rows `new` follow; new = Rᵀ basis, R kept for residuals."""
