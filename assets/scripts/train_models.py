@@ -48,32 +48,32 @@ LAST = replace(LATER, noise=0.04, learning_rate=4e-4)
 
 @dataclass(frozen=True)
 class Stage:
-    """bodies : the first numbers of `training_bodies.person` or `dog` that are learned from. nearby : counterparts on
+    """bodies : the numbers of `training_bodies.person` or `dog` that are learned from. nearby : counterparts on
     other meshings are the nearest vertices, see `add_core.learning.nearby`, and not exact ones alone.
     """
 
-    bodies: int
+    bodies: range
     settings: TrainingSettings
     nearby: bool = False
 
 
 STAGES = {
-    "humans-1": Stage(112, replace(COMMON, steps=10000)),
-    "humans-2": Stage(132, replace(LATER, steps=12000, learning_rate=7e-4, validate_every=500)),
-    "humans-3": Stage(376, replace(LATER, steps=14000, learning_rate=7e-4)),
-    "humans-4": Stage(490, replace(LATER, steps=9000, learning_rate=6e-4, seed=2)),
-    "humans-5": Stage(980, replace(LATER, steps=15000, learning_rate=7e-4, seed=3)),
-    "humans-6": Stage(980, replace(LATER, steps=10000, learning_rate=5e-4, noise=0.04, seed=4)),
-    "humans-7": Stage(980, replace(LAST, steps=1800, seed=5, validate_every=600), nearby=True),
-    "humans-8": Stage(980, replace(LAST, steps=5000, seed=7, averaging=0.999), nearby=True),
-    "correspondence": Stage(980, replace(COMMON, steps=4000, loss="multinomial")),
-    "dogs": Stage(36, replace(COMMON, steps=3000, validate_every=250)),
+    "humans-1": Stage(range(112), replace(COMMON, steps=10000)),
+    "humans-2": Stage(range(132), replace(LATER, steps=12000, learning_rate=7e-4, validate_every=500)),
+    "humans-3": Stage(range(376), replace(LATER, steps=14000, learning_rate=7e-4)),
+    "humans-4": Stage(range(490), replace(LATER, steps=9000, learning_rate=6e-4, seed=2)),
+    "humans-5": Stage(range(980), replace(LATER, steps=15000, learning_rate=7e-4, seed=3)),
+    "humans-6": Stage(range(980), replace(LATER, steps=10000, learning_rate=5e-4, noise=0.04, seed=4)),
+    "humans-7": Stage(range(980), replace(LAST, steps=1800, seed=5, validate_every=600), nearby=True),
+    "humans-8": Stage(range(980), replace(LAST, steps=5000, seed=7, averaging=0.999), nearby=True),
+    "correspondence": Stage(range(980), replace(COMMON, steps=4000, loss="multinomial")),
+    "dogs": Stage(range(36), replace(COMMON, steps=3000, validate_every=250)),
 }
 
 
 def task(data: str) -> LearningTask:
     """Bodies to train on and to validate by."""
-    numbers = range(STAGES[data].bodies)
+    numbers = STAGES[data].bodies
     if data == "dogs":
         middles = training_bodies.dog_middles()
         bodies = [training_bodies.dog(number) for number in numbers]

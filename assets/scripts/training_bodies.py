@@ -17,7 +17,7 @@ from add_core.learning import TrainingShape
 from add_core.learning.augmentation import bend, remesh, roughen
 from add_core.learning.middles import Middles
 from add_core.learning.pose_transfer import between, deform, deformation
-from add_core.learning.variations import blend, vary
+from add_core.learning.variations import BEND, SCANNER, WAVELENGTH, blend, vary
 
 UNCHANGED = 0.15
 """Share of the bodies that keep skin and meshing."""
@@ -25,6 +25,8 @@ BEYOND = 1.4
 """How far blends go from the mean body, 1 being the people themselves."""
 REPOSED_FROM = 490
 """Bodies from this number on have a pose that another body took, and often a way towards a second one."""
+FOREIGN_FROM = 980
+"""Bodies from this number on are meshed by other programs: see `foreign_meshings`."""
 VALIDATION = {
     "mesh": (61, 67, 72, 78),
     "remeshed": (64, 69, 70, 75),
@@ -56,8 +58,11 @@ def person(number: int) -> TrainingShape:
     """A training body: one of the people, a blend of three in one pose, or person 1 in another pose; mostly varied.
 
     Even numbers leave out persons 7 and 8, so that they alone give a set that the validation people are new to. From
-    REPOSED_FROM on, blends of three of all people in any pose that one of them took, always varied.
+    REPOSED_FROM on, blends of three of all people in any pose that one of them took, always varied; from FOREIGN_FROM
+    on, such blends or ones in a pose of the people, as other programs mesh them.
     """
+    if number >= FOREIGN_FROM:
+        return _foreign(number)
     if number >= REPOSED_FROM:
         return _reposed(number)
     subjects = range(6) if number % 2 == 0 else range(8)
@@ -72,11 +77,29 @@ def person(number: int) -> TrainingShape:
     return _perhaps_varied(mesh, draw, people_middles())
 
 
-def _reposed(number: int) -> TrainingShape:
+def _foreign(number: int) -> TrainingShape:
+    from foreign_meshings import foreign  # needs a program that nothing else here does
+
     draw = np.random.default_rng([1, number])
+    mesh = _in_another_pose(draw) if draw.random() < 0.5 else _blend_in(int(draw.integers(10)), draw, range(8))
+    mesh = bend(mesh, amplitude=draw.uniform(*BEND), wavelength=draw.uniform(*WAVELENGTH), seed=number)
+    item = foreign(mesh, draw)
+    if draw.random() < 0.5 and isinstance(item.shape, TriangleMesh):
+        skin = np.exp(draw.uniform(*np.log(SCANNER)))
+        rough = roughen(item.shape, amplitude=float(skin), smoothing=int(draw.integers(0, 4)), seed=number)
+        return TrainingShape(rough, item.places)
+    return item
+
+
+def _in_another_pose(draw: np.random.Generator) -> TriangleMesh:
     body = _blend_in(0, draw, range(8))
     first, second = _pose(draw), _pose(draw)
-    mesh = deform(body, between(first, second, draw.uniform(0.0, 0.5)))
+    return deform(body, between(first, second, draw.uniform(0.0, 0.5)))
+
+
+def _reposed(number: int) -> TrainingShape:
+    draw = np.random.default_rng([1, number])
+    mesh = _in_another_pose(draw)
     item = TrainingShape(mesh, np.arange(mesh.vertex_count))
     return vary(item, seed=int(draw.integers(2**31)), middles=people_middles().places)
 
