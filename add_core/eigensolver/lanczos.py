@@ -108,7 +108,7 @@ def _start(solve: Callable[[FloatArray], FloatArray], kernel: FloatArray, block:
     rows = np.random.default_rng(seed).standard_normal((block, kernel.shape[1]))
     for _ in range(SMOOTHING):
         rows -= (rows @ kernel.T) @ kernel
-        rows = np.ascontiguousarray(solve(np.ascontiguousarray(rows.T)).T)
+        rows = np.ascontiguousarray(solve(rows.T).T)
         try:
             rows, _ = _orthonormal(rows)
         except np.linalg.LinAlgError:
@@ -170,7 +170,7 @@ class _Basis:
     def extend(self, solve: Callable[[FloatArray], FloatArray]) -> None:
         """Apply the operator to the newest block, orthogonalise, and let the result be the next."""
         j, b, q = self.size, self._block, self.rows
-        new = np.ascontiguousarray(solve(np.ascontiguousarray(q[j:].T)).T)
+        new = np.ascontiguousarray(solve(q[j:].T).T)
         low, rounding = max(0, j - b), 1e-8 * float(np.linalg.norm(new))
         overlaps = np.zeros((b, j + b))
         overlaps[:, low:] = new @ q[low:].T

@@ -1,13 +1,15 @@
 """A process that solves operators of a job folder: numbers of operators come in on stdin, results go out on stdout.
 
-Started as a program of its own, not by forking or by `multiprocessing`: it never imports the caller's script, so a
-script needs no `if __name__ == "__main__"`, and no lock or thread of a window or of OpenBLAS is copied half-way. It
-ends when stdin closes, so nothing stays behind when the caller is killed.
+Started as a program of its own, not by forking the caller or by `multiprocessing`: it never imports the caller's
+script, so a script needs no `if __name__ == "__main__"`, and no lock or thread of a window or of OpenBLAS is copied
+half-way. Where that is safe it forks further workers once it has imported all that they need and before it has any
+thread. Each ends when its input closes, so nothing stays behind when the caller is killed.
 """
 
 from __future__ import annotations
 
 import contextlib
+import gc
 import json
 import os
 import queue
@@ -26,13 +28,38 @@ from .ordering import Dissection
 from .solver import PencilSolver
 
 
-def main() -> None:
-    """Serve until stdin closes. The first line is the job folder, each further line the number of an operator."""
+def main(*further: tuple[int, int]) -> None:
+    """Serve until stdin closes, and in a forked process for each of `further`, file descriptors to read and to answer.
+
+    The first line is the job folder, each further line the number of an operator.
+    """
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C reaches the whole group; the caller decides what ends
-    answers = os.fdopen(os.dup(1), "w", encoding="utf-8")
+    ends = [(os.dup(0), os.dup(1)), *further]
+    os.dup2(os.open(os.devnull, os.O_RDONLY), 0)
     os.dup2(2, 1)  # whatever a library prints must not mix with the answers
+    gc.freeze()  # what has been imported is no garbage
+    number, children = _forked(len(further))
+    for end in {*ends} - {ends[number]}:  # a pipe ends only when nobody holds it any more
+        os.close(end[0])
+        os.close(end[1])
+    _serve(*ends[number], children)
+
+
+def _forked(count: int) -> tuple[int, list[int]]:
+    """Which worker this process is now, 0 … count, and the processes that it has forked: `count` of them, or none."""
+    children: list[int] = []
+    for number in range(1, count + 1):
+        child = os.fork()
+        if child == 0:
+            return number, []
+        children.append(child)
+    return 0, children
+
+
+def _serve(source: int, target: int, children: list[int]) -> None:
+    answers = os.fdopen(target, "w", encoding="utf-8")
     requests: queue.Queue[str] = queue.Queue()
-    threading.Thread(target=_read, args=(requests,), daemon=True).start()
+    threading.Thread(target=_read, args=(source, requests, children), daemon=True).start()
     folder = Path(json.loads(requests.get()))
     job = SpectralJob.load(folder / "inputs")
     solver = PencilSolver(job.indptr, job.indices, job.mass, Dissection.load(folder / "inputs"))
@@ -42,9 +69,12 @@ def main() -> None:
         answers.flush()
 
 
-def _read(requests: queue.Queue[str]) -> None:
-    for line in sys.stdin:
-        requests.put(line)
+def _read(source: int, requests: queue.Queue[str], children: list[int]) -> None:
+    with os.fdopen(source, encoding="utf-8") as lines:
+        for line in lines:
+            requests.put(line)
+    for child in children:  # their input has ended too; who waits for this process then has their CPU time as well
+        os.waitpid(child, 0)
     os._exit(0)  # the caller is gone, perhaps in the middle of an operator
 
 
