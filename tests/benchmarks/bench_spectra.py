@@ -67,10 +67,15 @@ class PeakOfChildren:
 
     def _watch(self) -> None:
         while not self._done.wait(0.05):
-            for child in {word for file in Path("/proc/self/task").glob("*/children") for word in _words(file)}:
+            for child in _descendants("self"):
                 words = _words(Path("/proc", child, "status"))
                 if "VmHWM:" in words:
                     self.megabytes = np.fmax(self.megabytes, int(words[words.index("VmHWM:") + 1]) / 1024)
+
+
+def _descendants(process: str) -> set[str]:
+    children = {word for file in Path("/proc", process, "task").glob("*/children") for word in _words(file)}
+    return children.union(*map(_descendants, children))
 
 
 def _words(file: Path) -> list[str]:

@@ -1,9 +1,12 @@
 """The whole family: which operators it holds, that nothing but time depends on workers, and how it is stopped."""
 
+import contextlib
 import os
+import signal
 import subprocess
 import sys
 import threading
+import time
 from pathlib import Path
 
 import numpy as np
@@ -133,6 +136,50 @@ def test_a_worker_that_dies_costs_time_only(monkeypatch, caplog):
     family = small_family(workers=2)
     assert_array_equal(family.eigenfunctions, expected.eigenfunctions)
     assert "Solving in this process instead: a worker process ended by itself (struck by lightning)" in caplog.text
+
+
+def forked_worker() -> int:
+    """The number of the process that the worker process of this one has forked, as soon as it has."""
+    patience = time.monotonic() + 60
+    while time.monotonic() < patience:
+        for child in _children(os.getpid()):
+            for forked in _children(child):
+                return forked
+        time.sleep(0.02)
+    raise AssertionError("no worker was forked")
+
+
+def _children(process: int) -> list[int]:
+    with contextlib.suppress(OSError):  # it has ended
+        tasks = Path(f"/proc/{process}/task").glob("*/children")
+        return [int(child) for task in tasks for child in task.read_text().split()]
+    return []
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="workers are forked on Linux only")
+def test_a_forked_worker_that_is_killed_costs_time_only(caplog):
+    def progress(done, total):
+        if done == 0:
+            os.kill(forked_worker(), signal.SIGKILL)
+
+    family = small_family(workers=2, progress=progress)
+    assert_array_equal(family.eigenfunctions, small_family().eigenfunctions)
+    assert "Solving in this process instead: a worker process ended by itself" in caplog.text
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="workers are forked on Linux only")
+@pytest.mark.parametrize("stop", [False, True])
+def test_no_worker_outlives_the_work(stop):
+    forked = []
+
+    def progress(done, total):
+        if done == 0:
+            forked.append(forked_worker())
+        return not stop
+
+    with pytest.raises(Cancelled) if stop else contextlib.nullcontext():
+        small_family(workers=2, progress=progress)
+    assert not Path(f"/proc/{forked[0]}").exists()  # and its CPU time counts among that of whoever asked for the work
 
 
 def test_a_temporary_folder_that_is_full_costs_a_warning(monkeypatch, caplog):

@@ -73,16 +73,17 @@ def test_a_mistake_ends_with_a_status_and_one_line(runner, ears, tmp_path):
     assert words.startswith("add-core: ")
 
 
-def children(pid):
-    """Numbers of the processes that `pid` started."""
+def descendants(pid):
+    """Numbers of the processes that `pid` started, and those that these started."""
     command = ["ps", "-o", "pid=", "--ppid", str(pid)]
-    return [int(child) for child in subprocess.run(command, capture_output=True, text=True, check=False).stdout.split()]
+    words = subprocess.run(command, capture_output=True, text=True, check=False).stdout.split()
+    return [number for child in map(int, words) for number in (child, *descendants(child))]
 
 
 def test_killing_a_command_ends_its_workers_too(runner, ears, tmp_path):
     process = runner.start(SPECTRA, tmp_path / "job", anew=True, said=ears.said, ended=ears.ended)
-    wait_for(lambda: len(children(process.identity.pid)) == 2)
-    workers = [ProcessIdentity.of(child) for child in children(process.identity.pid)]
+    wait_for(lambda: len(descendants(process.identity.pid)) == 2)
+    workers = [ProcessIdentity.of(child) for child in descendants(process.identity.pid)]
     assert os.getpriority(os.PRIO_PROCESS, workers[0].pid) > os.getpriority(os.PRIO_PROCESS, 0)
     process.kill()
     wait_for(lambda: ears.ends and not any(worker.is_alive for worker in workers))
