@@ -40,7 +40,6 @@ class FrontGroup:
 
     first : where its own rows begin in the workspace. fronts, size : c of them, s rows each.
     rest : (c, r) the workspace rows that each front touches further up; padding points to the row of zeros.
-    gather : (c·s, held) of 1 and −1: own rows of the right-hand side minus the shares that lower fronts have in them.
     shares : where in the held array its shares begin.
     slots, entries : flat positions in (c, s + r, s + r) and the entries (of nnz) of A that belong there.
     padding : flat positions of the ones that keep padded pivots regular.
@@ -51,24 +50,20 @@ class FrontGroup:
     fronts: int
     size: int
     rest: IntArray
-    gather: csr_array
     shares: int
     slots: IntArray
     entries: IntArray
     padding: IntArray
     children: tuple[ChildBlock, ...]
 
-    def own_rows(self, x: FloatArray) -> FloatArray:
-        """(c, s, p): a view of the workspace x."""
-        return x[self.first : self.first + self.fronts * self.size].reshape(self.fronts, self.size, x.shape[1])
+    def own_rows(self, x: FloatArray, begin: int = 0) -> FloatArray:
+        """(c, s, p): a view of the workspace x, or of its rows from `begin` on."""
+        first = self.first - begin
+        return x[first : first + self.fronts * self.size].reshape(self.fronts, self.size, x.shape[1])
 
     def rest_rows(self, x: FloatArray) -> FloatArray:
         """(c, r, p): a copy of the rows of x further up."""
         return np.take(x, self.rest, axis=0)
-
-    def gathered(self, held: FloatArray) -> FloatArray:
-        """(c, s, p): the own rows of the right-hand side after the elimination of all lower fronts."""
-        return np.asarray(self.gather @ held).reshape(self.fronts, self.size, held.shape[1])
 
     def own_shares(self, held: FloatArray) -> FloatArray:
         """(c, r, p): a view of the held array."""
@@ -76,10 +71,28 @@ class FrontGroup:
 
 
 @dataclass(frozen=True, eq=False)
+class Level:
+    """Groups of one height: none touches a row of another.
+
+    first : where their rows begin in the workspace.
+    gather : (rows, held) of 1 and −1: each row of the right-hand side minus the shares that lower fronts have in it.
+    """
+
+    first: int
+    gather: csr_array
+    groups: tuple[FrontGroup, ...]
+
+    def gathered(self, held: FloatArray) -> list[FloatArray]:
+        """(c, s, p) of each group: its rows of the right-hand side after the elimination of all lower fronts."""
+        rows = self.gather @ held
+        return [group.own_rows(rows, self.first) for group in self.groups]
+
+
+@dataclass(frozen=True, eq=False)
 class FrontTree:
     """Everything about a factorisation that follows from the pattern (indptr, indices) of A alone.
 
-    dissection : the order of elimination. diagonal : (n,) the diagonal entries of A. groups : lowest first.
+    dissection : the order of elimination. diagonal : (n,) the diagonal entries of A. levels : lowest first.
     places : (n,) where each row, in the tree's order, lies in the workspace of `workspace` rows. held : rows of the
         array of right-hand sides and shares.
     ordered_indptr, ordered_indices, ordered_entries : the pattern in the tree's order, and which entry of A goes where.
@@ -89,7 +102,7 @@ class FrontTree:
     indices: IntArray
     dissection: Dissection
     diagonal: IntArray
-    groups: tuple[FrontGroup, ...]
+    levels: tuple[Level, ...]
     places: IntArray
     workspace: int
     held: int
@@ -100,6 +113,10 @@ class FrontTree:
     @property
     def size(self) -> int:
         return len(self.indptr) - 1
+
+    @property
+    def groups(self) -> list[FrontGroup]:
+        return [group for level in self.levels for group in level.groups]
 
     @classmethod
     def of(cls, indptr: IntArray, indices: IntArray, dissection: Dissection) -> FrontTree:
@@ -116,7 +133,7 @@ class FrontTree:
             indices=indices,
             dissection=dissection,
             diagonal=read_only(np.flatnonzero(rows == indices)),
-            groups=layout.groups,
+            levels=layout.levels,
             places=read_only(layout.places),
             workspace=layout.workspace,
             held=layout.held,
@@ -162,17 +179,18 @@ class _Layout:
             if parent >= 0:
                 self._children[parent].append(i)
         self._home: dict[int, tuple[int, int]] = {}
-        batches = self._all_batches(_heights(dissection))
+        heights = _heights(dissection)
+        batches = self._all_batches(heights)
         self.places = np.empty(len(dissection.permutation), dtype=np.int64)
         self.workspace = self._place(batches) + 1
         rests = [self._rest_rows(batch) for batch in batches]
         shares = np.cumsum([len(self.places), *(rest.size for rest in rests)])
         self.held = int(shares[-1])
-        gather = self._gathering(rests)
-        self.groups = tuple(
-            self._group(number, batch, rests[number], gather, int(shares[number]))
-            for number, batch in enumerate(batches)
-        )
+        groups = [
+            self._group(number, batch, rests[number], int(shares[number])) for number, batch in enumerate(batches)
+        ]
+        ends = np.flatnonzero(np.diff([heights[batch[0]] for batch in batches], append=-1)) + 1
+        self.levels = self._levels(groups, [int(end) for end in ends], self._gathering(rests))
 
     def _sizes(self, batch: IntArray) -> tuple[int, int]:
         owns, rests = np.diff(self._starts)[batch], [len(self._rests[i]) for i in batch]
@@ -214,9 +232,16 @@ class _Layout:
         signs = np.where(taken < len(self.places), 1.0, -1.0)
         return csr_array((signs, (rows[taken], taken)), shape=(self.workspace, self.held))
 
-    def _group(self, number: int, batch: IntArray, rest: IntArray, gather: csr_array, shares: int) -> FrontGroup:
+    def _levels(self, groups: list[FrontGroup], ends: list[int], gather: csr_array) -> tuple[Level, ...]:
+        levels = []
+        for begin, end in zip([0, *ends], ends, strict=False):
+            first = self._firsts[begin]
+            after = self._firsts[end] if end < len(groups) else self.workspace - 1
+            levels.append(Level(first, gather[first:after], tuple(groups[begin:end])))
+        return tuple(levels)
+
+    def _group(self, number: int, batch: IntArray, rest: IntArray, shares: int) -> FrontGroup:
         s, r = self._sizes(batch)
-        first = self._firsts[number]
         slots, padding, blocks = [], [], []
         for k, i in enumerate(batch):
             begin, end, after = self._starts[i], self._starts[i + 1], self._rests[i]
@@ -231,11 +256,10 @@ class _Layout:
             for child in self._children[i]:
                 blocks.append(ChildBlock(*self._home[child], parent=k, positions=place(self._rests[child])))
         return FrontGroup(
-            first=first,
+            first=self._firsts[number],
             fronts=len(batch),
             size=s,
             rest=rest,
-            gather=gather[first : first + len(batch) * s],
             shares=shares,
             slots=np.concatenate(slots),
             entries=np.concatenate([self._entries[i] for i in batch]),

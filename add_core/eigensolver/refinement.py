@@ -24,7 +24,7 @@ COLUMNS = 64
 """Residuals are formed for this many columns at a time, which keeps memory small and the columns in cache."""
 
 ROWS = 256
-"""Signs are looked for in this many rows at a time."""
+"""Eigenfunctions are put together, and their signs looked for, in this many rows at a time."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -18,7 +18,7 @@ from .factorisation import factorise, factorise_near
 from .fronts import FrontTree
 from .lanczos import RitzPairs, shift_invert_lanczos
 from .ordering import Dissection, known_dissection
-from .refinement import RESIDUAL, StandardPairs, orient, repaired
+from .refinement import RESIDUAL, ROWS, StandardPairs, orient, repaired
 
 _log = logging.getLogger(__name__)
 
@@ -86,9 +86,9 @@ class PencilSolver:
         functions[~self.active] = 0.0
         vertices = np.flatnonzero(self.active)
         functions[vertices, : len(kernel)] = kernel.T / root[:, None]
-        vectors = found.pairs.vectors  # ours to change
-        vectors /= root[found.order, None]
-        functions[vertices[found.order], len(kernel) :] = vectors
+        for begin in range(0, len(root), ROWS):
+            part = found.order[begin : begin + ROWS]
+            functions[vertices[part], len(kernel) :] = found.pairs.vectors[begin : begin + ROWS] / root[part, None]
         orient(functions[:, len(kernel) :])
         values = np.concatenate([np.zeros(len(kernel)), np.maximum(found.pairs.values, 0.0)])
         return Eigenpairs(values, functions, found.fallback)
