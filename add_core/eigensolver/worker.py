@@ -2,8 +2,9 @@
 
 Started as a program of its own, not by forking the caller or by `multiprocessing`: it never imports the caller's
 script, so a script needs no `if __name__ == "__main__"`, and no lock or thread of a window or of OpenBLAS is copied
-half-way. Where that is safe it forks further workers once it has imported all that they need and before it has any
-thread. Each ends when its input closes, so nothing stays behind when the caller is killed.
+half-way. Where that is safe it forks further workers once it has all that they need, imports and symbolic
+factorisation, and before it has any thread. Each ends when its input closes, so nothing stays behind when the caller is
+killed.
 """
 
 from __future__ import annotations
@@ -17,8 +18,9 @@ import signal
 import sys
 import threading
 import time
+from collections.abc import Callable
 from pathlib import Path
-from typing import Any
+from typing import Any, TextIO
 
 import numpy as np
 
@@ -37,12 +39,25 @@ def main(*further: tuple[int, int]) -> None:
     ends = [(os.dup(0), os.dup(1)), *further]
     os.dup2(os.open(os.devnull, os.O_RDONLY), 0)
     os.dup2(2, 1)  # whatever a library prints must not mix with the answers
-    gc.freeze()  # what has been imported is no garbage
+    first = os.fdopen(ends[0][0], encoding="utf-8")
+    said = first.readline()
+    if not said:
+        return
+    folder = Path(json.loads(said))
+    job = SpectralJob.load(folder / "inputs")
+    solver = PencilSolver(job.indptr, job.indices, job.mass, Dissection.load(folder / "inputs"))
+    if further:
+        _ = solver.tree  # found once for all
+    gc.freeze()  # all this is no garbage
     number, children = _forked(len(further))
-    for end in {*ends} - {ends[number]}:  # a pipe ends only when nobody holds it any more
-        os.close(end[0])
-        os.close(end[1])
-    _serve(*ends[number], children)
+    for source, target in {*ends} - {ends[number]}:  # a pipe ends only when nobody holds it any more
+        os.close(source)
+        os.close(target)
+    requests = first
+    if number > 0:
+        requests = os.fdopen(ends[number][0], encoding="utf-8")
+        requests.readline()  # the folder, which is known
+    _serve(requests, ends[number][1], children, lambda channel: _answer(job, solver, folder, channel))
 
 
 def _forked(count: int) -> tuple[int, list[int]]:
@@ -56,23 +71,18 @@ def _forked(count: int) -> tuple[int, list[int]]:
     return 0, children
 
 
-def _serve(source: int, target: int, children: list[int]) -> None:
+def _serve(lines: TextIO, target: int, children: list[int], answer: Callable[[int], dict[str, Any]]) -> None:
     answers = os.fdopen(target, "w", encoding="utf-8")
     requests: queue.Queue[str] = queue.Queue()
-    threading.Thread(target=_read, args=(source, requests, children), daemon=True).start()
-    folder = Path(json.loads(requests.get()))
-    job = SpectralJob.load(folder / "inputs")
-    solver = PencilSolver(job.indptr, job.indices, job.mass, Dissection.load(folder / "inputs"))
+    threading.Thread(target=_read, args=(lines, requests, children), daemon=True).start()
     while True:
-        channel = int(requests.get())
-        answers.write(json.dumps(_answer(job, solver, folder, channel)) + "\n")
+        answers.write(json.dumps(answer(int(requests.get()))) + "\n")
         answers.flush()
 
 
-def _read(source: int, requests: queue.Queue[str], children: list[int]) -> None:
-    with os.fdopen(source, encoding="utf-8") as lines:
-        for line in lines:
-            requests.put(line)
+def _read(lines: TextIO, requests: queue.Queue[str], children: list[int]) -> None:
+    for line in lines:
+        requests.put(line)
     for child in children:  # their input has ended too; who waits for this process then has their CPU time as well
         os.waitpid(child, 0)
     os._exit(0)  # the caller is gone, perhaps in the middle of an operator

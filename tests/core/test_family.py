@@ -159,7 +159,7 @@ def _children(process: int) -> list[int]:
 @pytest.mark.skipif(sys.platform != "linux", reason="workers are forked on Linux only")
 def test_a_forked_worker_that_is_killed_costs_time_only(caplog):
     def progress(done, total):
-        if done == 0:
+        if done == 1:
             os.kill(forked_worker(), signal.SIGKILL)
 
     family = small_family(workers=2, progress=progress)
@@ -173,9 +173,9 @@ def test_no_worker_outlives_the_work(stop):
     forked = []
 
     def progress(done, total):
-        if done == 0:
+        if done == 1:
             forked.append(forked_worker())
-        return not stop
+        return done == 0 or not stop
 
     with pytest.raises(Cancelled) if stop else contextlib.nullcontext():
         small_family(workers=2, progress=progress)
