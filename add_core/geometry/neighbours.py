@@ -25,6 +25,10 @@ class Neighbours:
     indices: IntArray
     distances: FloatArray
 
+    def directions(self, points: FloatArray) -> FloatArray:
+        """(n, k, 3), unit: from the `points` to their neighbours."""
+        return np.asarray((points[self.indices] - points[:, None]) / self.distances[:, :, None])
+
     def ball_weights(self, count: int) -> FloatArray:
         """(n, count): 1 − d²/ε² of the nearest neighbours at distance d, ε as far as the last of them.
 

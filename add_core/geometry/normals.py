@@ -7,12 +7,23 @@ from scipy.sparse import csr_array
 from scipy.sparse.csgraph import breadth_first_order, connected_components, minimum_spanning_tree
 
 from .._check import FloatArray, IntArray
+from .enclosure import enclosure
 from .neighbours import Neighbours, nearest_neighbours, undirected
+from .tetrahedra import Tetrahedra
 
 BALL_NEIGHBOURS = 12
 """The ε-ball of a point reaches to this one of its nearest neighbours: ε follows the density of the cloud."""
 PROPAGATION_NEIGHBOURS = 14
 """Neighbours that a point's orientation may come from."""
+DOUBT = 0.005
+"""Share of the pairs of neighbours whose normals contradict each other above which sheets touch or are thin."""
+GAP, OPEN_SHARE = 3.0, 0.04
+"""A triangle of the border of an enclosure closes a gap if the circle through its corners is this many times as large
+as points are apart there. Of a closed piece with points enough to tell what it encloses, less than this share does."""
+STEEPEST, LEAST_AGREEMENT = 0.6, 0.5
+"""Sine between a chord and either tangent plane, and reflected cosine of the normals, of points on one sheet."""
+NOISE = 3.0
+"""Angle between a fitted normal and that of the enclosure, over the median of all, below which noise explains it."""
 
 
 def estimate_normals(points: FloatArray) -> FloatArray:
@@ -23,12 +34,22 @@ def estimate_normals(points: FloatArray) -> FloatArray:
     spanning tree that prefers short steps along the surface; the piece is then turned so that its normals point
     out of it (their flux is positive). A plane has no outside: there the sign is arbitrary, but always the same.
 
-    Closed surfaces thinner than the distance between their points, such as fingers, cannot be told from a sheet.
+    Where neighbours then disagree, sheets touch, as two thighs or a hand and a hip do, or are thin, as fingers are. If
+    the piece is closed, its `enclosure` says which side of a point is outside and which points of its ball lie on the
+    same sheet.
     """
     if len(points) < 2:
         return np.tile([0.0, 0.0, 1.0], (len(points), 1))
     nearest = nearest_neighbours(points, PROPAGATION_NEIGHBOURS)
-    return _orient(points, _fitted_normals(points, nearest), nearest)
+    fitted = _fitted_normals(points, nearest, nearest.ball_weights(BALL_NEIGHBOURS))
+    tree = minimum_spanning_tree(undirected(nearest.indices, _reluctance(points, fitted, nearest)))
+    pieces = connected_components(tree, directed=False)[1].astype(np.int64)
+    normals = _oriented(points, fitted, nearest, tree, pieces)
+    doubt = np.bincount(pieces, _contradicted(points, normals, nearest)) / np.bincount(pieces)
+    for piece in np.flatnonzero(doubt > DOUBT):
+        members = pieces == piece
+        normals[members] = _sheets_apart(points[members], normals[members])
+    return normals
 
 
 def reflected_cosines(directions: FloatArray, normals: FloatArray, others: FloatArray) -> FloatArray:
@@ -41,8 +62,41 @@ def reflected_cosines(directions: FloatArray, normals: FloatArray, others: Float
     return np.asarray(np.einsum("...i,...i->...", normals, others) - 2 * along)
 
 
-def _fitted_normals(points: FloatArray, nearest: Neighbours) -> FloatArray:
-    weight = nearest.ball_weights(BALL_NEIGHBOURS)
+def _sheets_apart(points: FloatArray, normals: FloatArray) -> FloatArray:
+    """(n, 3), unit: normals by what the points enclose, or the `normals` if they are open or too few to tell."""
+    tetrahedra = Tetrahedra.between(points)
+    if tetrahedra is None:
+        return normals
+    nearest = nearest_neighbours(points, BALL_NEIGHBOURS)
+    border = enclosure(tetrahedra)
+    spacing = nearest.distances[:, :6].mean(axis=1) / tetrahedra.scale
+    gap = border.radii > GAP * spacing[border.facets].max(axis=1)
+    if border.areas @ gap > OPEN_SHARE * border.areas.sum():
+        return normals
+    passed = (border.normals == 0).all(axis=1, keepdims=True)
+    return _refitted(points, np.where(passed, normals, border.normals), nearest)
+
+
+def _refitted(points: FloatArray, normals: FloatArray, nearest: Neighbours) -> FloatArray:
+    """(n, 3): planes fitted to the neighbours on the same sheet as `normals` tell, where these planes are about theirs.
+
+    Fitting evens out noise. In folds and at the tips of fingers, where the fit differs, the normals are kept.
+    """
+    other = normals[nearest.indices]
+    here = np.broadcast_to(normals[:, None], other.shape)
+    directions = nearest.directions(points)
+    heights = np.einsum("nki,nki->nk", directions, here), np.einsum("nki,nki->nk", directions, other)
+    beside = np.maximum(np.abs(heights[0]), np.abs(heights[1])) < STEEPEST
+    beside &= reflected_cosines(directions, here, other) > LEAST_AGREEMENT
+    beside &= np.einsum("nki,nki->nk", here, other) > 0
+    fitted = _fitted_normals(points, nearest, nearest.ball_weights(BALL_NEIGHBOURS) * beside)
+    cosine = np.einsum("ni,ni->n", fitted, normals)
+    turn = np.arccos(np.minimum(np.abs(cosine), 1.0))
+    better = (turn < NOISE * np.median(turn)) & (np.count_nonzero(beside, axis=1) >= 4)
+    return np.where(better[:, None], np.sign(cosine)[:, None] * fitted, normals)
+
+
+def _fitted_normals(points: FloatArray, nearest: Neighbours, weight: FloatArray) -> FloatArray:
     offset = points[nearest.indices[:, :BALL_NEIGHBOURS]] - points[:, None]
     mean = np.einsum("nk,nki->ni", weight, offset) / (1.0 + weight.sum(axis=1))[:, None]  # the point itself weighs 1
     centred = offset - mean[:, None]
@@ -51,9 +105,10 @@ def _fitted_normals(points: FloatArray, nearest: Neighbours) -> FloatArray:
     return np.asarray(np.linalg.eigh(spread / scale[:, None, None])[1][:, :, 0])
 
 
-def _orient(points: FloatArray, normals: FloatArray, nearest: Neighbours) -> FloatArray:
-    tree = minimum_spanning_tree(undirected(nearest.indices, _reluctance(points, normals, nearest)))
-    pieces = connected_components(tree, directed=False)[1]
+def _oriented(
+    points: FloatArray, normals: FloatArray, nearest: Neighbours, tree: csr_array, pieces: IntArray
+) -> FloatArray:
+    """The normals, turned as the `tree` says, and outward on each of the `pieces` (n,) that it connects."""
     sign = np.ones(len(points))
     for piece in range(pieces.max() + 1):
         members = np.flatnonzero(pieces == piece)
@@ -66,10 +121,16 @@ def _orient(points: FloatArray, normals: FloatArray, nearest: Neighbours) -> Flo
     return np.asarray(sign[:, None] * normals)
 
 
+def _contradicted(points: FloatArray, normals: FloatArray, nearest: Neighbours) -> FloatArray:
+    """(n,): the share of each point's neighbours whose normals are turned against its own."""
+    other = normals[nearest.indices]
+    here = np.broadcast_to(normals[:, None], other.shape)
+    return np.asarray((reflected_cosines(nearest.directions(points), here, other) < 0).mean(axis=1))
+
+
 def _reluctance(points: FloatArray, normals: FloatArray, nearest: Neighbours) -> FloatArray:
     """(n, k), > 0: how little the orientation of a point says about its neighbour's."""
-    offset = points[nearest.indices] - points[:, None]
-    direction = offset / nearest.distances[:, :, None]
+    direction = nearest.directions(points)
     other = normals[nearest.indices]
     here = np.broadcast_to(normals[:, None], other.shape)
     bend = 1 - np.abs(reflected_cosines(direction, here, other))

@@ -20,7 +20,7 @@ from .spectrum import Spectrum
 
 Precision = Literal["float64", "float32"]
 
-METHOD, METHOD_ON_CLOUDS = 1, 4
+METHOD, METHOD_ON_CLOUDS = 1, 5
 """Raised whenever geometry, operators or solver change a number, so that cached spectra of an earlier method are not
 read.
 """

@@ -5,8 +5,10 @@ import pytest
 from numpy.testing import assert_allclose
 
 from add_core.geometry import PointCloud, subsample
+from add_core.geometry.enclosure import enclosure
 from add_core.geometry.normals import estimate_normals, reflected_cosines
 from add_core.geometry.shapes import cylinder, ellipsoid, rectangle, sphere, torus
+from add_core.geometry.tetrahedra import Tetrahedra
 
 
 def random_rotation(seed):
@@ -45,6 +47,39 @@ def test_two_walls_that_face_each_other_point_at_each_other():
     ball = sphere(3).vertices
     normals = estimate_normals(np.vstack([ball, ball + np.array([2.3, 0, 0])]))
     assert np.einsum("ni,ni->n", normals, np.vstack([ball, ball])).min() > 0.9
+
+
+def pressed_together(gap):
+    """Two lenses above each other, nearer than their points are apart, and the normals of both."""
+    lens = ellipsoid(1.0, 1.0, 0.6)
+    above = lens.vertices + np.array([0, 0, 2 * 0.6 + gap])
+    return np.vstack([lens.vertices, above]), np.vstack([lens.vertex_normals] * 2)
+
+
+@pytest.mark.parametrize("gap", [0.01, 0.02, 0.04])
+def test_bodies_pressed_together_keep_normals_of_their_own(gap):
+    """Planes fitted across the gap turn one of them inside out as a whole."""
+    points, expected = pressed_together(gap)
+    cosine = np.einsum("ni,ni->n", estimate_normals(points), expected)
+    assert cosine.min() > 0.5
+    assert np.mean(cosine > 0.95) > 0.98
+
+
+def test_where_sheets_touch_planes_are_still_fitted_against_noise():
+    points, expected = pressed_together(0.02)
+    points += 0.1 * 0.066 * np.random.default_rng(0).normal(size=points.shape)
+    found = estimate_normals(points)
+    raw = enclosure(Tetrahedra.between(points)).normals
+    off, off_raw = (np.degrees(np.median(np.arccos(np.einsum("ni,ni->n", n, expected)))) for n in (found, raw))
+    assert off < 0.75 * off_raw
+
+
+@pytest.mark.parametrize("seed", [0, 1])
+def test_a_rough_sheet_with_a_border_encloses_nothing_and_keeps_to_one_side(seed):
+    sheet = rectangle(n=24).vertices
+    points = sheet + 0.3 / 24 * np.random.default_rng(seed).normal(size=sheet.shape)
+    up = estimate_normals(points)[:, 2]
+    assert (np.sign(up.sum()) * up).min() > 0.5
 
 
 @pytest.mark.parametrize("unit", [1e-6, 1e6])
