@@ -73,6 +73,16 @@ def test_skipping_passes_beside_an_eigenvalue_is_noticed_unless_its_vector_is_ke
         run(SPECTRUM, 60, shift=SPECTRUM[40] * (1 + 1e-7))
 
 
+def test_a_pass_that_came_late_makes_the_next_ones_come_sooner(monkeypatch):
+    monkeypatch.setattr(lanczos, "NEAREST", 0)
+    shift = SPECTRUM[100] * (1 + 1e-3)
+    pairs, *_ = run(SPECTRUM, 150, shift=shift)
+    assert_allclose(pairs.vectors.T @ pairs.vectors, np.eye(150), atol=1e-9)
+    monkeypatch.setattr(lanczos, "CLOSE", 1.0)
+    with pytest.raises(ConvergenceError, match="a shift too close to an eigenvalue"):
+        run(SPECTRUM, 150, shift=shift)
+
+
 @pytest.mark.parametrize("always", [False, True])
 def test_a_shift_almost_on_an_eigenvalue_costs_no_accuracy(always):
     pairs, _, zeros = run(SPECTRUM, 60, shift=SPECTRUM[40] * (1 + 1e-7), always=always)
