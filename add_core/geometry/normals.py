@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
-from scipy.sparse import csr_array
+from scipy.sparse import coo_array, csr_array
 from scipy.sparse.csgraph import breadth_first_order, connected_components, minimum_spanning_tree
 
 from .._check import FloatArray, IntArray
@@ -15,6 +15,9 @@ BALL_NEIGHBOURS = 12
 """The ε-ball of a point reaches to this one of its nearest neighbours: ε follows the density of the cloud."""
 PROPAGATION_NEIGHBOURS = 14
 """Neighbours that a point's orientation may come from."""
+NEXT = 3.0
+"""Two pieces lie next to each other if they are less than this many times as far apart as the neighbours of a point
+reach."""
 DOUBT = 0.005
 """Share of the pairs of neighbours whose normals contradict each other above which sheets touch or are thin."""
 GAP, OPEN_SHARE = 3.0, 0.04
@@ -34,8 +37,9 @@ def estimate_normals(points: FloatArray) -> FloatArray:
     spanning tree that prefers short steps along the surface; the piece is then turned so that its normals point
     out of it (their flux is positive). A plane has no outside: there the sign is arbitrary, but always the same.
 
-    Where neighbours then disagree, sheets touch, as two thighs or a hand and a hip do, or are thin, as fingers are. If
-    the piece is closed, its `enclosure` says which side of a point is outside and which points of its ball lie on the
+    Where neighbours then disagree, sheets touch, as two thighs or a hand and a hip do, or are thin, as fingers are;
+    and where pieces lie next to each other, balls are too small, as along a tail that consists of rings of points. If
+    such a body is closed, its `enclosure` says which side of a point is outside and which points of its ball lie on the
     same sheet.
     """
     if len(points) < 2:
@@ -45,10 +49,12 @@ def estimate_normals(points: FloatArray) -> FloatArray:
     tree = minimum_spanning_tree(undirected(nearest.indices, _reluctance(points, fitted, nearest)))
     pieces = connected_components(tree, directed=False)[1].astype(np.int64)
     normals = _oriented(points, fitted, nearest, tree, pieces)
-    doubt = np.bincount(pieces, _contradicted(points, normals, nearest)) / np.bincount(pieces)
-    for piece in np.flatnonzero(doubt > DOUBT):
-        members = pieces == piece
-        normals[members] = _sheets_apart(points[members], normals[members])
+    doubt = _contradicted(points, normals, nearest)
+    bodies = _bodies(points, pieces, nearest)
+    for body in range(bodies.max() + 1):
+        members = bodies == body
+        if doubt[members].mean() > DOUBT or np.ptp(pieces[members]) > 0:
+            normals[members] = _sheets_apart(points[members], normals[members])
     return normals
 
 
@@ -60,6 +66,20 @@ def reflected_cosines(directions: FloatArray, normals: FloatArray, others: Float
     """
     along = np.einsum("...i,...i->...", directions, normals) * np.einsum("...i,...i->...", directions, others)
     return np.asarray(np.einsum("...i,...i->...", normals, others) - 2 * along)
+
+
+def _bodies(points: FloatArray, pieces: IntArray, nearest: Neighbours) -> IntArray:
+    """(n,): `pieces`, those joined that lie next to each other, as the rings do of which a tail may be made."""
+    tetrahedra = Tetrahedra.between(points) if pieces.any() else None
+    if tetrahedra is None:
+        return pieces
+    ends = tetrahedra.corners[:, [[0, 1], [0, 2], [0, 3], [1, 2], [1, 3], [2, 3]]].reshape(-1, 2)
+    ends = ends[pieces[ends[:, 0]] != pieces[ends[:, 1]]]
+    length = np.linalg.norm(points[ends[:, 0]] - points[ends[:, 1]], axis=1)
+    joined = pieces[ends[length < NEXT * nearest.distances[ends, -1].max(axis=1)]]
+    count = int(pieces.max()) + 1
+    links = coo_array((np.ones(len(joined)), (joined[:, 0], joined[:, 1])), shape=(count, count))
+    return connected_components(links, directed=False)[1].astype(np.int64)[pieces]
 
 
 def _sheets_apart(points: FloatArray, normals: FloatArray) -> FloatArray:

@@ -65,6 +65,18 @@ def test_bodies_pressed_together_keep_normals_of_their_own(gap):
     assert np.mean(cosine > 0.95) > 0.98
 
 
+def test_a_body_of_rings_is_one_body():
+    """Sixteen points all around and the next ring farther away: every ball lies in one ring, as its plane does."""
+    z, angle = np.linspace(-0.99, 0.99, 25), np.linspace(0, 2 * np.pi, 16, endpoint=False)
+    wide = 0.1 * np.sqrt(1 - z**2)[:, None]
+    points = np.stack([wide * np.cos(angle), wide * np.sin(angle), np.repeat(z[:, None], 16, axis=1)], axis=2)
+    points = points.reshape(-1, 3)
+    expected = points / np.array([0.1, 0.1, 1.0]) ** 2
+    expected /= np.linalg.norm(expected, axis=1, keepdims=True)
+    cosine = np.einsum("ni,ni->n", estimate_normals(points), expected)
+    assert np.mean(cosine > 0.9) > 0.97  # but for the tips
+
+
 def test_where_sheets_touch_planes_are_still_fitted_against_noise():
     points, expected = pressed_together(0.02)
     points += 0.1 * 0.066 * np.random.default_rng(0).normal(size=points.shape)
