@@ -10,7 +10,7 @@ from scipy.sparse.csgraph import connected_components, dijkstra
 
 from .._check import BoolArray, FloatArray, IntArray
 from .distinct import is_among, sorted_distinct
-from .normals import reflected_cosines
+from .normals import EstimatedNormals, reflected_cosines
 
 DETOUR = 10.0
 """An edge whose ends are this many times as far apart along the surface as across the edge bridges a gap."""
@@ -42,7 +42,7 @@ def bridging_triangles(
     normals: FloatArray,
     *,
     spacing: FloatArray,
-    estimated: bool = False,
+    estimated: EstimatedNormals | None = None,
 ) -> BoolArray:
     """(t,): which fan triangles join parts of the surface that are near in space but far apart along it.
 
@@ -56,7 +56,8 @@ def bridging_triangles(
     Triangles with a refused edge bridge, except the cheapest of those without which a part would come loose.
 
     stars : (t, 3), centre first. points, normals : (n, 3). spacing : (n,), mean distance to the next neighbours.
-    estimated : whether the normals are, and so say little about inside and outside where sheets are close.
+    estimated : if the normals are, and so say little about inside and outside where sheets are close. Then every edge
+        off the border of what the points enclose is tested, after all others.
     """
     count = len(points)
     sides = np.sort(stars[:, [1, 2, 2, 0, 0, 1]].reshape(-1, 2), axis=1)
@@ -66,11 +67,12 @@ def bridging_triangles(
     spacing = spacing[ends].max(axis=1)
     chords = _Chords.of(ends, points, normals)
     cost, outside = chords.cost, chords.outside
-    straight = _held_by_both(ends, stars, count) & (cost <= SURE_BEND * chords.length)
-    untested = ~chords.facing & (outside | (cost <= POOR_COST * chords.length))
+    off = np.zeros(len(ends), dtype=bool) if estimated is None else estimated.off_surface(ends)
+    straight = ~off & _held_by_both(ends, stars, count) & (cost <= SURE_BEND * chords.length)
+    untested = ~off & ~chords.facing & (outside | (cost <= POOR_COST * chords.length))
     taken = straight | (untested & (cost <= SURE_COST * spacing))
     taken[edge[sure]] = True
-    order = np.lexsort((cost, outside & (not estimated), chords.facing))
+    order = np.lexsort((cost, outside & (estimated is None), chords.facing | off))
     taken = _grown(taken, ends, chords.length, _reaches(chords, spacing), order[~taken[order]])
     kept = _rejoined(np.asarray(taken[edge].all(axis=1)), stars, cost[edge].max(axis=1, initial=0.0), count)
     if np.count_nonzero(kept) < (1 - MOST_BRIDGES) * len(kept):

@@ -12,7 +12,7 @@ from .._check import BoolArray, FloatArray, points_array, positions_array, read_
 from ..errors import GeometryError
 from .fans import Fans, build_fans
 from .neighbours import DistinctPoints, distinct_points
-from .normals import estimate_normals
+from .normals import EstimatedNormals, estimate_normals
 from .tangent_planes import TangentPlanes
 
 
@@ -60,7 +60,11 @@ class PointCloud:
         """(n, 3), unit: the normals given, or estimated by total least squares and turned outward."""
         if self.normals is not None:
             return self.normals
-        return read_only(estimate_normals(self.points[self.distinct.first])[self.distinct.place])
+        return read_only(self._estimated.normals[self.distinct.place])
+
+    @cached_property
+    def _estimated(self) -> EstimatedNormals:
+        return estimate_normals(self.points[self.distinct.first])
 
     @cached_property
     def tangent_planes(self) -> TangentPlanes:
@@ -76,7 +80,7 @@ class PointCloud:
             self.outward_normals,
             self.tangent_planes,
             self.distinct,
-            estimated=self.normals is None,
+            estimated=self._estimated if self.normals is None else None,
         )
 
     @cached_property

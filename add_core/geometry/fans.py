@@ -11,6 +11,7 @@ from .._check import BoolArray, FloatArray, IntArray, read_only
 from .arcs import arc_edges
 from .bridges import bridging_triangles
 from .neighbours import DistinctPoints
+from .normals import EstimatedNormals
 from .stars import closed_stars, star_corners, surface_stars
 from .tangent_planes import TangentPlanes
 
@@ -40,7 +41,12 @@ class Fans:
 
 
 def build_fans(
-    points: FloatArray, normals: FloatArray, planes: TangentPlanes, distinct: DistinctPoints, *, estimated: bool = False
+    points: FloatArray,
+    normals: FloatArray,
+    planes: TangentPlanes,
+    distinct: DistinctPoints,
+    *,
+    estimated: EstimatedNormals | None = None,
 ) -> Fans:
     """Fans of a cloud from the tangent planes of its distinct points.
 
@@ -48,7 +54,7 @@ def build_fans(
     A point on the boundary has an open fan. Points in one place share the fans around it: they take their turns as
     corners.
 
-    estimated : whether the normals are, rather than given.
+    estimated : of the distinct points, if their normals are rather than given.
     """
     first = distinct.first
     places, upright = points[first], normals[first]

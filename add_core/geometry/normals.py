@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 from scipy.sparse import coo_array, csr_array
 from scipy.sparse.csgraph import breadth_first_order, connected_components, minimum_spanning_tree
 
-from .._check import FloatArray, IntArray
-from .enclosure import enclosure
+from .._check import BoolArray, FloatArray, IntArray
+from .distinct import is_among, sorted_distinct
+from .enclosure import Enclosure, enclosure
 from .neighbours import Neighbours, nearest_neighbours, undirected
 from .tetrahedra import Tetrahedra
 
@@ -29,8 +32,27 @@ NOISE = 3.0
 """Angle between a fitted normal and that of the enclosure, over the median of all, below which noise explains it."""
 
 
-def estimate_normals(points: FloatArray) -> FloatArray:
-    """Unit normals (n, 3) of points that lie in different places, outward on every closed piece.
+@dataclass(frozen=True, eq=False)
+class EstimatedNormals:
+    """Normals of points that lie in different places, and between which of them the surface runs.
+
+    normals : (n, 3), unit, outward on every closed piece.
+    enclosed : (n,), the points whose normals come from an `enclosure`. sides : the sides of the triangles of its
+        border, as numbers low · n + high, ascending.
+    """
+
+    normals: FloatArray
+    enclosed: BoolArray
+    sides: IntArray
+
+    def off_surface(self, ends: IntArray) -> BoolArray:
+        """(e,): whether edges (e, 2) between enclosed points leave the border, through the air or the inside."""
+        low, high = np.sort(ends, axis=1).T
+        return np.asarray(self.enclosed[ends].all(axis=1) & ~is_among(low * len(self.normals) + high, self.sides))
+
+
+def estimate_normals(points: FloatArray) -> EstimatedNormals:
+    """Normals of points (n, 3) in different places.
 
     Each is the direction in which the points of its ε-ball spread least (total least squares), nearer points
     counting more. One orientation spreads over each connected piece of the neighbourhood graph, along a minimum
@@ -42,8 +64,9 @@ def estimate_normals(points: FloatArray) -> FloatArray:
     such a body is closed, its `enclosure` says which side of a point is outside and which points of its ball lie on the
     same sheet.
     """
+    enclosed, facets = np.zeros(len(points), dtype=bool), np.empty((0, 3), dtype=np.int64)
     if len(points) < 2:
-        return np.tile([0.0, 0.0, 1.0], (len(points), 1))
+        return EstimatedNormals(np.tile([0.0, 0.0, 1.0], (len(points), 1)), enclosed, facets.ravel())
     nearest = nearest_neighbours(points, PROPAGATION_NEIGHBOURS)
     fitted = _fitted_normals(points, nearest, nearest.ball_weights(BALL_NEIGHBOURS))
     tree = minimum_spanning_tree(undirected(nearest.indices, _reluctance(points, fitted, nearest)))
@@ -52,10 +75,15 @@ def estimate_normals(points: FloatArray) -> FloatArray:
     doubt = _contradicted(points, normals, nearest)
     bodies = _bodies(points, pieces, nearest)
     for body in range(bodies.max() + 1):
-        members = bodies == body
+        members = np.flatnonzero(bodies == body)
         if doubt[members].mean() > DOUBT or np.ptp(pieces[members]) > 0:
-            normals[members] = _sheets_apart(points[members], normals[members])
-    return normals
+            border = _closed_border(points[members])
+            if border is not None:
+                normals[members] = _sheets_apart(points[members], normals[members], border)
+                enclosed[members] = True
+                facets = np.concatenate([facets, members[border.facets]])
+    ends = np.sort(facets[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
+    return EstimatedNormals(normals, enclosed, sorted_distinct(ends[:, 0] * len(points) + ends[:, 1]))
 
 
 def reflected_cosines(directions: FloatArray, normals: FloatArray, others: FloatArray) -> FloatArray:
@@ -82,18 +110,21 @@ def _bodies(points: FloatArray, pieces: IntArray, nearest: Neighbours) -> IntArr
     return connected_components(links, directed=False)[1].astype(np.int64)[pieces]
 
 
-def _sheets_apart(points: FloatArray, normals: FloatArray) -> FloatArray:
-    """(n, 3), unit: normals by what the points enclose, or the `normals` if they are open or too few to tell."""
+def _closed_border(points: FloatArray) -> Enclosure | None:
+    """The border of what the points enclose, or None if they are open, or too few to tell."""
     tetrahedra = Tetrahedra.between(points)
     if tetrahedra is None:
-        return normals
-    nearest = nearest_neighbours(points, BALL_NEIGHBOURS)
+        return None
     border = enclosure(tetrahedra)
-    spacing = nearest.distances[:, :6].mean(axis=1) / tetrahedra.scale
+    spacing = nearest_neighbours(points, 6).distances.mean(axis=1) / tetrahedra.scale
     gap = border.radii > GAP * spacing[border.facets].max(axis=1)
-    if border.areas @ gap > OPEN_SHARE * border.areas.sum():
-        return normals
+    return border if border.areas @ gap <= OPEN_SHARE * border.areas.sum() else None
+
+
+def _sheets_apart(points: FloatArray, normals: FloatArray, border: Enclosure) -> FloatArray:
+    """(n, 3), unit: normals by what the points enclose; the old `normals` of points that its border passes by."""
     passed = (border.normals == 0).all(axis=1, keepdims=True)
+    nearest = nearest_neighbours(points, BALL_NEIGHBOURS)
     return _refitted(points, np.where(passed, normals, border.normals), nearest)
 
 
