@@ -21,8 +21,8 @@ from .spectrum import Spectrum
 Precision = Literal["float64", "float32"]
 
 METHOD, METHOD_ON_CLOUDS = 1, 5
-"""Raised whenever geometry, operators or solver change a number, so that cached spectra of an earlier method are not
-read.
+"""Raised whenever geometry, operators or solver change a number by more than the accuracy that is promised, so that
+cached spectra of an earlier method are not read.
 """
 
 
