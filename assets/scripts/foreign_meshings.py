@@ -1,6 +1,6 @@
 """Bodies meshed anew by other programs, on whose meshings a network trained on our own kinds alone is less exact.
 
-Needs pymeshlab (GPL; used by this script only, never shipped or imported by the program) beside pyvista. The isotropic
+Needs pymeshlab (GPL; used by such scripts only, never shipped or imported by the program) beside pyvista. The isotropic
 remeshing is the kind that the remeshed test people have, on other bodies; decimation is another kind altogether.
 """
 
@@ -26,7 +26,7 @@ FARTHEST = 1.0
 def foreign(mesh: TriangleMesh, draw: np.random.Generator) -> TrainingShape:
     """The same body as another program would mesh it, each vertex named by the nearest vertex or middle of an edge."""
     count = int(draw.integers(*COUNTS))
-    made = _isotropic(mesh, count) if draw.random() < ISOTROPIC else _decimated(mesh, count)
+    made = isotropic(mesh, count) if draw.random() < ISOTROPIC else _decimated(mesh, count)
     return TrainingShape(made, nearest_places(mesh, made))
 
 
@@ -48,7 +48,8 @@ def nearest_places(mesh: TriangleMesh, made: TriangleMesh) -> NDArray[np.int64]:
     return np.where(far, UNKNOWN, places)
 
 
-def _isotropic(mesh: TriangleMesh, count: int) -> TriangleMesh:
+def isotropic(mesh: TriangleMesh, count: int) -> TriangleMesh:
+    """The same surface with about `count` vertices and nearly equilateral triangles of one size."""
     length = 0.96 * np.sqrt(mesh.area / count * 2 / np.sqrt(3))
     meshes = pymeshlab.MeshSet(verbose=False)
     meshes.add_mesh(pymeshlab.Mesh(mesh.vertices, mesh.faces))

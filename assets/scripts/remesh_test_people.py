@@ -9,26 +9,13 @@ Needs pymeshlab (GPL; used here only, never shipped or imported by the program).
 from pathlib import Path
 
 import numpy as np
-import pymeshlab
+from foreign_meshings import isotropic
 
-from add_core.geometry import TriangleMesh
 from add_core.geometry.closest import closest_points
 from add_core.io import humans
 
 VERTICES = 4000
 FOLDER = Path(__file__).parents[1] / "shapes"
-
-
-def remeshed(mesh):
-    """The same surface with nearly equilateral triangles of one size."""
-    length = 0.96 * np.sqrt(mesh.area / VERTICES * 2 / np.sqrt(3))
-    meshes = pymeshlab.MeshSet(verbose=False)
-    meshes.add_mesh(pymeshlab.Mesh(mesh.vertices, mesh.faces))
-    meshes.meshing_isotropic_explicit_remeshing(
-        iterations=8, targetlen=pymeshlab.PureValue(length), featuredeg=60, checksurfdist=False
-    )
-    current = meshes.current_mesh()
-    return TriangleMesh(current.vertex_matrix(), current.face_matrix())
 
 
 def main():
@@ -39,7 +26,7 @@ def main():
     scale = np.max([np.ptp(collection[i].vertices, axis=0).max() for i in test]) * 1.2 / 65535
     for index in test:
         old = collection[index]
-        new = remeshed(old)
+        new = isotropic(old, VERTICES)
         place = closest_points(old, new.vertices, new.vertex_normals)
         print(collection.names[index], new.vertex_count, f"off by {1000 * place.distances.max():.2f} mm at most")
         parts["vertices_q"].append(np.rint((new.vertices - lo) / scale).astype(np.uint16))

@@ -29,6 +29,7 @@ from pathlib import Path
 
 import training_bodies
 
+from add_core.geometry import PointCloud
 from add_core.io import dogs, humans
 from add_core.learning import InputRecipe, LearningTask, Model, TrainingSettings, TrainingShape, load_model
 from add_core.learning.architectures import build_network
@@ -44,17 +45,22 @@ OSD = range(0, 112, 2)
 COMMON = TrainingSettings(pairs=160, noise=0.15, averaging=0.998, arithmetic="bfloat16", validate_every=500)
 LATER = replace(COMMON, noise=0.1, seed=1, validate_every=1000)
 LAST = replace(LATER, noise=0.04, learning_rate=4e-4)
+FOREIGN = replace(LAST, averaging=0.999)
+NEW = range(training_bodies.REPOSED_FROM, 1140)
+"""Bodies in poses of others, and those that other programs meshed."""
 
 
 @dataclass(frozen=True)
 class Stage:
-    """bodies : the numbers of `training_bodies.person` or `dog` that are learned from. nearby : counterparts on
-    other meshings are the nearest vertices, see `add_core.learning.nearby`, and not exact ones alone.
+    """bodies : the numbers of `training_bodies.person` or `dog` that are learned from. clouds : how often each cloud
+    is among them. nearby : counterparts on other meshings are the nearest vertices, see `add_core.learning.nearby`,
+    and not exact ones alone.
     """
 
     bodies: range
     settings: TrainingSettings
     nearby: bool = False
+    clouds: int = 1
 
 
 STAGES = {
@@ -66,6 +72,11 @@ STAGES = {
     "humans-6": Stage(range(980), replace(LATER, steps=10000, learning_rate=5e-4, noise=0.04, seed=4)),
     "humans-7": Stage(range(980), replace(LAST, steps=1800, seed=5, validate_every=600), nearby=True),
     "humans-8": Stage(range(980), replace(LAST, steps=5000, seed=7, averaging=0.999), nearby=True),
+    "humans-9": Stage(NEW, replace(FOREIGN, steps=7000, learning_rate=6e-4, seed=8), nearby=True),
+    "humans-10": Stage(NEW, replace(FOREIGN, steps=7000, learning_rate=4e-4, seed=9), nearby=True),
+    "humans-11": Stage(NEW, replace(FOREIGN, steps=8000, learning_rate=5e-4, seed=10), nearby=True),
+    "humans-12": Stage(NEW, replace(FOREIGN, steps=9000, learning_rate=5e-4, seed=11), nearby=True),
+    "humans-13": Stage(NEW, replace(FOREIGN, steps=8000, learning_rate=4e-4, seed=12), nearby=True, clouds=2),
     "correspondence": Stage(range(980), replace(COMMON, steps=4000, loss="multinomial")),
     "dogs": Stage(range(36), replace(COMMON, steps=3000, validate_every=250)),
 }
@@ -79,6 +90,7 @@ def task(data: str) -> LearningTask:
         bodies = [training_bodies.dog(number) for number in numbers]
         return LearningTask(bodies, training_bodies.validation_dogs(), middles.symmetry, dogs()[0])
     bodies = [training_bodies.person(number) for number in numbers]
+    bodies += [body for body in bodies if isinstance(body.shape, PointCloud)] * (STAGES[data].clouds - 1)
     middles = training_bodies.people_middles()
     return LearningTask(bodies, training_bodies.validation_people(), middles.symmetry, humans()[0])
 
