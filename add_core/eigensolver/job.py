@@ -68,6 +68,8 @@ class SpectralJob:
     def write_output(self, folder: Path, channel: int, functions: FloatArray) -> None:
         """Put the eigenfunctions (n, K) of one operator into the file; plain writes, so that a process maps nothing."""
         part = np.ascontiguousarray(functions, dtype=self.dtype)
-        with open(folder / EIGENFUNCTIONS, "r+b") as file:
+        left = part.data.cast("B")
+        with open(folder / EIGENFUNCTIONS, "r+b", buffering=0) as file:  # a buffer would write it page by page
             file.seek(-self.output_bytes + channel * part.nbytes, 2)
-            part.tofile(file)
+            while left:
+                left = left[file.write(left) :]
