@@ -10,14 +10,23 @@
     python train_models.py humans-7 -o RUN7 --inputs INPUTS --start RUN6
     python mix_models.py RUN5=0.2 RUN6=0.4 RUN7=0.4 -o START8.safetensors
     python train_models.py humans-8 -o RUN8 --inputs INPUTS --start START8.safetensors
-    python mix_models.py RUN6=0.4 RUN8=0.6 -o MIXED.safetensors
+    python mix_models.py RUN6=0.4 RUN8=0.6 -o START9.safetensors
+    python train_models.py humans-9 -o RUN9 --inputs INPUTS --start START9.safetensors
+    python train_models.py humans-10 -o RUN10 --inputs INPUTS --start START9.safetensors
+    python mix_models.py RUN9=0.5 RUN10=0.5 -o START11.safetensors
+    python train_models.py humans-11 -o RUN11 --inputs INPUTS --start START11.safetensors
+    python train_models.py humans-12 -o RUN12 --inputs INPUTS --start START11.safetensors
+    python mix_models.py RUN9=0.25 RUN10=0.25 RUN11=0.5 -o START13.safetensors
+    python train_models.py humans-13 -o RUN13 --inputs INPUTS --start START13.safetensors
+    python mix_models.py RUN11=0.33 RUN12=0.33 RUN13=0.34 -o MIXED.safetensors
     python train_models.py dogs -o RUN
     python train_models.py osd -o RUN --inputs INPUTS
 
-humans-madd3 learns in eight stages, at first from more and more bodies, in the last two with the nearest vertices of
-other meshings as counterparts, and is the mean of two of them. About half of the time goes
-into spectra: 17 operators for each body, 7 to 15 seconds on a core, and 20 MB of disk each in INPUTS. Each may be
-stopped and started again; RUN/model.safetensors is the best so far.
+humans-madd3 learns in thirteen stages, at first from more and more bodies, from the seventh on with nearest vertices
+of other meshings as counterparts, in the last five from bodies that other programs meshed too (pymeshlab must be
+installed for these), and is the mean of three of them. About half of the time goes into spectra: 17 operators for each
+body, 7 to 15 seconds on a core, and 20 MB of disk each in INPUTS. Each may be stopped and started again;
+RUN/model.safetensors is the best so far.
 """
 
 from __future__ import annotations
