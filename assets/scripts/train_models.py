@@ -5,7 +5,6 @@
     python train_models.py humans-3 -o RUN3 --inputs INPUTS --start RUN2
     python train_models.py humans-4 -o RUN4 --inputs INPUTS --start RUN3
     python train_models.py humans-5 -o RUN5 --inputs INPUTS --start RUN4
-    python train_models.py correspondence -o RUN --inputs INPUTS --start RUN5
     python train_models.py humans-6 -o RUN6 --inputs INPUTS --start RUN5
     python train_models.py humans-7 -o RUN7 --inputs INPUTS --start RUN6
     python mix_models.py RUN5=0.2 RUN6=0.4 RUN7=0.4 -o START8.safetensors
@@ -15,6 +14,8 @@
     python train_models.py humans-10 -o RUN10 --inputs INPUTS --start START9.safetensors
     python mix_models.py RUN9=0.5 RUN10=0.5 -o START11.safetensors
     python train_models.py humans-11 -o RUN11 --inputs INPUTS --start START11.safetensors
+    python train_models.py correspondence -o NAMED1 --inputs INPUTS --start RUN11
+    python train_models.py correspondence-2 -o NAMED2 --inputs INPUTS --start NAMED1
     python train_models.py humans-12 -o RUN12 --inputs INPUTS --start START11.safetensors
     python mix_models.py RUN9=0.25 RUN10=0.25 RUN11=0.5 -o START13.safetensors
     python train_models.py humans-13 -o RUN13 --inputs INPUTS --start START13.safetensors
@@ -55,6 +56,7 @@ COMMON = TrainingSettings(pairs=160, noise=0.15, averaging=0.998, arithmetic="bf
 LATER = replace(COMMON, noise=0.1, seed=1, validate_every=1000)
 LAST = replace(LATER, noise=0.04, learning_rate=4e-4)
 FOREIGN = replace(LAST, averaging=0.999)
+NAMED = replace(COMMON, loss="multinomial")
 NEW = range(training_bodies.REPOSED_FROM, 1140)
 """Bodies in poses of others, and those that other programs meshed."""
 
@@ -86,7 +88,10 @@ STAGES = {
     "humans-11": Stage(NEW, replace(FOREIGN, steps=8000, learning_rate=5e-4, seed=10), nearby=True),
     "humans-12": Stage(NEW, replace(FOREIGN, steps=9000, learning_rate=5e-4, seed=11), nearby=True),
     "humans-13": Stage(NEW, replace(FOREIGN, steps=8000, learning_rate=4e-4, seed=12), nearby=True, clouds=2),
-    "correspondence": Stage(range(980), replace(COMMON, steps=4000, loss="multinomial")),
+    "correspondence": Stage(NEW, replace(NAMED, steps=5000, noise=0.1, seed=13, validate_every=1250)),
+    "correspondence-2": Stage(
+        NEW, replace(NAMED, steps=4000, noise=0.05, learning_rate=7e-4, seed=14, validate_every=1000)
+    ),
     "dogs": Stage(range(36), replace(COMMON, steps=3000, validate_every=250)),
 }
 
@@ -115,7 +120,7 @@ def learn(data: str, run: Path, inputs: Path, start: Path | None, steps: int | N
     settings = STAGES[data].settings
     if steps is not None:
         settings = replace(settings, steps=steps)
-    named = data == "correspondence"
+    named = STAGES[data].settings.loss == "multinomial"
     network = build_network(
         "mADD4" if named else "mADD3",
         angles=RECIPE.angles,
