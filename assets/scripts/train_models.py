@@ -83,11 +83,17 @@ STAGES = {
     "humans-6": Stage(range(980), replace(LATER, steps=10000, learning_rate=5e-4, noise=0.04, seed=4)),
     "humans-7": Stage(range(980), replace(LAST, steps=1800, seed=5, validate_every=600), nearby=True),
     "humans-8": Stage(range(980), replace(LAST, steps=5000, seed=7, averaging=0.999), nearby=True),
-    "humans-9": Stage(NEW, replace(FOREIGN, steps=7000, learning_rate=6e-4, seed=8), nearby=True),
-    "humans-10": Stage(NEW, replace(FOREIGN, steps=7000, learning_rate=4e-4, seed=9), nearby=True),
-    "humans-11": Stage(NEW, replace(FOREIGN, steps=8000, learning_rate=5e-4, seed=10), nearby=True),
-    "humans-12": Stage(NEW, replace(FOREIGN, steps=9000, learning_rate=5e-4, seed=11), nearby=True),
-    "humans-13": Stage(NEW, replace(FOREIGN, steps=8000, learning_rate=4e-4, seed=12), nearby=True, clouds=2),
+    "humans-9": Stage(NEW, replace(FOREIGN, steps=7000, learning_rate=6e-4, seed=8, validate_every=1750), nearby=True),
+    "humans-10": Stage(NEW, replace(FOREIGN, steps=7000, learning_rate=4e-4, seed=9, validate_every=1750), nearby=True),
+    "humans-11": Stage(
+        NEW, replace(FOREIGN, steps=8000, learning_rate=5e-4, seed=10, validate_every=4000), nearby=True
+    ),
+    "humans-12": Stage(
+        NEW, replace(FOREIGN, steps=9000, learning_rate=5e-4, seed=11, validate_every=4500), nearby=True
+    ),
+    "humans-13": Stage(
+        NEW, replace(FOREIGN, steps=8000, learning_rate=4e-4, seed=12, validate_every=4000), nearby=True, clouds=2
+    ),
     "correspondence": Stage(NEW, replace(NAMED, steps=5000, noise=0.1, seed=13, validate_every=1250)),
     "correspondence-2": Stage(
         NEW, replace(NAMED, steps=4000, noise=0.05, learning_rate=7e-4, seed=14, validate_every=1000)
