@@ -9,7 +9,8 @@ from .._check import FloatArray
 from .mesh import TriangleMesh
 
 SMOOTHING_ROUNDS = 2
-_AT_BOUNDARY = 1e-3  # weight of faces that lack the bend of an edge, so that whole faces decide where there are any
+AT_BOUNDARY = 1e-3
+"""Weight of faces that lack the bend of an edge, so that whole faces decide where there are any."""
 
 
 def face_curvature_tensors(mesh: TriangleMesh, *, rounds: int = SMOOTHING_ROUNDS) -> FloatArray:
@@ -61,7 +62,7 @@ def _face_measures(mesh: TriangleMesh) -> FloatArray:
 def _face_weights(mesh: TriangleMesh) -> FloatArray:
     inner = np.bincount(mesh.inner_edges.faces.ravel(), minlength=len(mesh.faces))
     area = np.where(mesh.has_area, mesh.face_areas, 0.0)
-    return np.asarray(np.where(inner == 3, area, _AT_BOUNDARY * area))
+    return np.asarray(np.where(inner == 3, area, AT_BOUNDARY * area))
 
 
 def _faces_around_vertices(mesh: TriangleMesh) -> csr_array:

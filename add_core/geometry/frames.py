@@ -12,6 +12,7 @@ from .cloud import PointCloud
 from .cloud_curvature import point_curvature_tensors
 from .curvature import face_curvature_tensors
 from .direction_field import TangentBasis, fill_axes
+from .fan_curvature import fan_curvature_tensors, trust_in_fans
 from .mesh import TriangleMesh
 from .orientation import orientation
 
@@ -37,6 +38,9 @@ class PrincipalFrames:
         is below `TRUSTED` the directions are filled in from confident neighbours; the curvatures stay as measured.
 
     Faces without area have zero vectors, zero curvature and zero confidence.
+
+    on_fans : of a cloud, frames of the triangles of its fans, which conduct its heat as faces do a mesh's. None of a
+        mesh, or of frames of your own.
     """
 
     max_direction: FloatArray
@@ -45,10 +49,14 @@ class PrincipalFrames:
     max_curvature: FloatArray
     min_curvature: FloatArray
     confidence: FloatArray
+    on_fans: PrincipalFrames | None = None
 
 
 def principal_curvatures(shape: TriangleMesh | PointCloud) -> PrincipalFrames:
     """Principal frames per face of a mesh (Cohen-Steiner and Morvan 2003) or per point of a cloud (section 6).
+
+    Those of a cloud's points come from its normals, smoothed over neighbours; those of its fans (`on_fans`), by which
+    heat runs, from the angles between triangles where these are well shaped, in as much detail as a mesh's.
 
     Boundaries, several components and faces without area are allowed. Faces turned against their neighbours are
     taken the way most of their piece is turned, and a warning says so: θ would run the other way on them.
@@ -124,7 +132,42 @@ def _cloud_frames(cloud: PointCloud) -> PrincipalFrames:
         size=float(np.sqrt(cloud.area / (4 * np.pi))),
         usable=touched,
     )
-    return PrincipalFrames(*(read_only(getattr(frames, field.name)[place]) for field in fields(frames)))
+    of_points = {field.name: getattr(frames, field.name) for field in fields(frames) if field.name != "on_fans"}
+    of_points = {name: read_only(rows[place]) for name, rows in of_points.items()}
+    return PrincipalFrames(**of_points, on_fans=_fan_frames(cloud, corners))
+
+
+def _fan_frames(cloud: PointCloud, corners: IntArray) -> PrincipalFrames | None:
+    """Frames of the triangles (t, 3) of the fans, numbered among the distinct points: of the mean of their corners'
+    tensors.
+
+    These come from the angles between the triangles as far as they are well shaped, as of evenly spread points: then
+    heat runs as on the mesh that joins the points, and a network reads both. Elsewhere they come from the normals,
+    exact where these are.
+    """
+    if not len(corners):
+        return None
+    points = cloud.points[cloud.distinct.first]
+    trust = trust_in_fans(points, corners)[:, None, None]
+    of_normals = point_curvature_tensors(cloud.tangent_planes, rounds=0 if cloud.normals is not None else 1)
+    tensors = of_normals + trust * (fan_curvature_tensors(points, corners, cloud.fans.weights) - of_normals)
+    a, b, c = (points[corners[:, corner]] for corner in range(3))
+    normals = np.cross(b - a, c - a)
+    return frames_from_tensors(
+        tensors[corners].mean(axis=1),
+        normals / np.linalg.norm(normals, axis=1, keepdims=True),
+        (a + b + c) / 3,
+        neighbours=_sharing_edges(corners),
+        size=float(np.sqrt(cloud.area / (4 * np.pi))),
+    )
+
+
+def _sharing_edges(triangles: IntArray) -> IntArray:
+    """(p, 2): triangles next to each other among those that have the same edge."""
+    sides = np.sort(triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1) @ [triangles.max() + 1, 1]
+    order = np.argsort(sides, kind="stable")
+    same = np.flatnonzero(np.diff(sides[order]) == 0)
+    return np.stack([order[same], order[same + 1]], axis=1) // 3
 
 
 def _agreeing(mesh: TriangleMesh) -> TriangleMesh:

@@ -31,7 +31,8 @@ class TrainingSettings:
     margin, balance : μ and γ of eq. (21). standardisation : see `Model`.
     averaging : the model has the moving average of the weights, each step keeping this share of it; 0 for the weights
         of the last step. Early steps keep less, so that the start is soon forgotten.
-    arithmetic : of products within the network; "bfloat16" is half again as fast where a processor has it.
+    arithmetic : of products within the network; "bfloat16" is half again as fast where a processor has it, and many
+        times slower where it does not (AVX2 alone).
     device : of torch, such as "cpu" or "cuda".
     validate_every, checkpoint_every : steps. patience : stop after so many validations without a better CMC@1; 0 never.
     """

@@ -55,7 +55,7 @@ class AnisotropicLaplacian:
         self.alpha = _degree(alpha)
         self.conductivity = _conductivity(conductivity)
         frames = principal_curvatures(shape) if frames is None else _frames_of(shape, frames)
-        self._discretise(shape, Diffusivity.of_model(frames, self.alpha, self.conductivity))
+        self._discretise(shape, frames, Diffusivity.of_model(frames, self.alpha, self.conductivity))
 
     @classmethod
     def from_directions(
@@ -85,12 +85,12 @@ class AnisotropicLaplacian:
     def _of(cls, shape: TriangleMesh | PointCloud, diffusivity: Diffusivity) -> AnisotropicLaplacian:
         other = object.__new__(cls)
         other.alpha = other.conductivity = None
-        other._discretise(shape, diffusivity)
+        other._discretise(shape, diffusivity.frames, diffusivity)
         return other
 
-    def _discretise(self, shape: TriangleMesh | PointCloud, diffusivity: Diffusivity) -> None:
-        self.shape, self.frames = shape, diffusivity.frames
-        self.elements = Elements.of(shape, self.frames)
+    def _discretise(self, shape: TriangleMesh | PointCloud, frames: PrincipalFrames, diffusivity: Diffusivity) -> None:
+        self.shape, self.frames = shape, frames
+        self.elements = Elements.of(shape, frames)
         if not len(self.elements.areas):
             raise GeometryError(f"{shape!r} has no area, so no heat can run on it. Check its coordinates.")
         self.pattern = SparsityPattern.of(self.elements.corners, shape.vertex_count)

@@ -29,7 +29,11 @@ class Diffusivity:
 
     @classmethod
     def of_model(cls, frames: PrincipalFrames, alpha: float, conductivity: Conductivity) -> Diffusivity:
-        """Eq. (9), "curvature": ψ(κ_m) along u_M and ψ(κ_M) along u_m; eq. (10), "constant": 1 and 1/(1 + α)."""
+        """Eq. (9), "curvature": ψ(κ_m) along u_M and ψ(κ_M) along u_m; eq. (10), "constant": 1 and 1/(1 + α).
+
+        On the fans of a cloud where their frames are known.
+        """
+        frames = frames if frames.on_fans is None else frames.on_fans
         if conductivity == "constant":
             return cls(frames, np.ones(len(frames.normals)), np.full(len(frames.normals), 1 / (1 + alpha)))
         along = 1 / (1 + alpha * np.abs(frames.min_curvature))
@@ -50,7 +54,7 @@ class Diffusivity:
                 f"(first: {lost.argmax()})."
             )
         axes = np.divide(axes, length[:, None], out=np.zeros_like(axes), where=length[:, None] > 0)
-        turned = replace(frames, max_direction=axes, min_direction=np.cross(frames.normals, axes))
+        turned = _turned(frames, axes)
         return cls(turned, _positive_rows("along", along, turned), _positive_rows("across", across, turned))
 
     @classmethod
@@ -71,8 +75,12 @@ class Diffusivity:
                 f"tensors must be positive definite in the tangent plane, but {bad.sum()} of {len(bad)} are not "
                 f"(first: {bad.argmax()})."
             )
-        turned = replace(frames, max_direction=axes, min_direction=np.cross(frames.normals, axes))
-        return cls(turned, mean + radius, mean - radius)
+        return cls(_turned(frames, axes), mean + radius, mean - radius)
+
+
+def _turned(frames: PrincipalFrames, axes: FloatArray) -> PrincipalFrames:
+    across = np.cross(frames.normals, axes)
+    return replace(frames, max_direction=axes, min_direction=across, on_fans=None)
 
 
 def _rows(name: str, value: ArrayLike, frames: PrincipalFrames, shape: tuple[int, ...]) -> FloatArray:

@@ -18,7 +18,7 @@ class Elements:
     areas : (t,), unit length², > 0. weights : (t,), 1 for a mesh, 1/3 for a cloud, where each triangle is counted
         about thrice.
     along_max, along_min : (t, 3) parts along u_M and u_m of the edge opposite to each corner, unit length.
-    frames : (t,) which row of the shape's principal frames each element uses.
+    frames : (t,) which row of the shape's principal frames, or of its frames `on_fans`, each element uses.
     """
 
     corners: IntArray
@@ -75,11 +75,12 @@ def _faces(mesh: TriangleMesh, frames: PrincipalFrames) -> Elements:
 
 def _fans(cloud: PointCloud, frames: PrincipalFrames) -> Elements:
     fans = cloud.fans
-    centre = fans.triangles[:, 0]
+    rows = fans.triangles[:, 0] if frames.on_fans is None else np.arange(len(fans.triangles))
+    own = frames if frames.on_fans is None else frames.on_fans
     normal = np.cross(fans.edges[:, 0], fans.edges[:, 1])
     normal /= np.linalg.norm(normal, axis=1, keepdims=True)
-    # The frame of the centre, laid into the triangle: u_M follows, u_m stands across it.
-    across = np.cross(normal, frames.max_direction[centre])
+    # The frame of the centre, or nearly that of the triangle, laid into it: u_M follows, u_m stands across it.
+    across = np.cross(normal, own.max_direction[rows])
     across /= np.maximum(np.linalg.norm(across, axis=1, keepdims=True), np.finfo(float).tiny)
     return Elements(
         corners=fans.triangles,
@@ -87,5 +88,5 @@ def _fans(cloud: PointCloud, frames: PrincipalFrames) -> Elements:
         weights=fans.weights,
         along_max=np.einsum("tci,ti->tc", fans.edges, np.cross(across, normal)),
         along_min=np.einsum("tci,ti->tc", fans.edges, across),
-        frames=centre,
+        frames=rows,
     )
