@@ -20,7 +20,7 @@ from .spectrum import Spectrum
 
 Precision = Literal["float64", "float32"]
 
-METHOD, METHOD_ON_CLOUDS = 1, 6
+METHOD, METHOD_ON_CLOUDS = 1, 7
 """Raised whenever geometry, operators or solver change a number by more than the accuracy that is promised, so that
 cached spectra of an earlier method are not read.
 """
