@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import logging
+from collections.abc import Callable
 from dataclasses import dataclass, fields
 
 import numpy as np
@@ -11,7 +12,7 @@ from .._check import BoolArray, FloatArray, IntArray, instance_of, read_only
 from .cloud import PointCloud
 from .cloud_curvature import point_curvature_tensors
 from .curvature import face_curvature_tensors
-from .direction_field import TangentBasis, fill_axes
+from .direction_field import ComplexArray, TangentBasis, fill_axes
 from .fan_curvature import fan_curvature_tensors, trust_in_fans
 from .mesh import TriangleMesh
 from .orientation import orientation
@@ -83,8 +84,22 @@ def frames_from_tensors(
     are filled in. size : a length that says what counts as flat. usable : (m,), False where there is no tangent
         plane.
     """
-    basis = TangentBasis.of(normals, positions)
     usable = np.ones(len(normals), dtype=bool) if usable is None else usable
+
+    def filled(axes: ComplexArray, basis: TangentBasis, trusted: BoolArray) -> ComplexArray:
+        return fill_axes(axes, basis, trusted=trusted, usable=usable, neighbours=neighbours)
+
+    return _frames(tensors, TangentBasis.of(normals, positions), size, usable, filled)
+
+
+def _frames(
+    tensors: FloatArray,
+    basis: TangentBasis,
+    size: float,
+    usable: BoolArray,
+    filled: Callable[[ComplexArray, TangentBasis, BoolArray], ComplexArray],
+) -> PrincipalFrames:
+    """filled : (axes, basis, trusted) -> axes, all (m,): those that are not trusted from elsewhere."""
     t11 = np.einsum("fi,fij,fj->f", basis.first, tensors, basis.first)
     t12 = np.einsum("fi,fij,fj->f", basis.first, tensors, basis.second)
     t22 = np.einsum("fi,fij,fj->f", basis.second, tensors, basis.second)
@@ -94,12 +109,12 @@ def frames_from_tensors(
     # cos 2φ, sin 2φ of the axis along which the tensor is largest in absolute value: an edge bends across itself.
     double_angle = -sign * ((t11 - t22) / 2 + 1j * t12)
     confidence = np.where(usable, _confidence(mean, radius, max_curvature, size), 0.0)
-    double_angle = fill_axes(double_angle, basis, trusted=confidence >= TRUSTED, usable=usable, neighbours=neighbours)
+    double_angle = filled(double_angle, basis, confidence >= TRUSTED)
     max_direction = np.where(usable[:, None], basis.axes(double_angle), 0.0)
     return PrincipalFrames(
         max_direction=read_only(max_direction),
-        min_direction=read_only(np.cross(normals, max_direction)),
-        normals=read_only(normals.copy()),
+        min_direction=read_only(np.cross(basis.normals, max_direction)),
+        normals=read_only(basis.normals.copy()),
         max_curvature=read_only(np.where(usable, max_curvature, 0.0)),
         min_curvature=read_only(np.where(usable, min_curvature, 0.0)),
         confidence=read_only(confidence),
@@ -133,41 +148,32 @@ def _cloud_frames(cloud: PointCloud) -> PrincipalFrames:
         usable=touched,
     )
     of_points = {field.name: getattr(frames, field.name) for field in fields(frames) if field.name != "on_fans"}
-    of_points = {name: read_only(rows[place]) for name, rows in of_points.items()}
-    return PrincipalFrames(**of_points, on_fans=_fan_frames(cloud, corners))
+    on_fans = _fan_frames(cloud, corners, frames) if len(corners) else None
+    return PrincipalFrames(**{name: read_only(rows[place]) for name, rows in of_points.items()}, on_fans=on_fans)
 
 
-def _fan_frames(cloud: PointCloud, corners: IntArray) -> PrincipalFrames | None:
+def _fan_frames(cloud: PointCloud, corners: IntArray, of_points: PrincipalFrames) -> PrincipalFrames:
     """Frames of the triangles (t, 3) of the fans, numbered among the distinct points: of the mean of their corners'
     tensors.
 
     These come from the angles between the triangles as far as they are well shaped, as of evenly spread points: then
     heat runs as on the mesh that joins the points, and a network reads both. Elsewhere they come from the normals,
-    exact where these are.
+    exact where these are. Directions that are not confident are those of the points, filled in there.
     """
-    if not len(corners):
-        return None
     points = cloud.points[cloud.distinct.first]
     trust = trust_in_fans(points, corners)[:, None, None]
     of_normals = point_curvature_tensors(cloud.tangent_planes, rounds=0 if cloud.normals is not None else 1)
     tensors = of_normals + trust * (fan_curvature_tensors(points, corners, cloud.fans.weights) - of_normals)
     a, b, c = (points[corners[:, corner]] for corner in range(3))
-    normals = np.cross(b - a, c - a)
-    return frames_from_tensors(
-        tensors[corners].mean(axis=1),
-        normals / np.linalg.norm(normals, axis=1, keepdims=True),
-        (a + b + c) / 3,
-        neighbours=_sharing_edges(corners),
-        size=float(np.sqrt(cloud.area / (4 * np.pi))),
-    )
+    upright = np.cross(b - a, c - a)
+    upright /= np.linalg.norm(upright, axis=1, keepdims=True)
 
+    def filled(axes: ComplexArray, basis: TangentBasis, trusted: BoolArray) -> ComplexArray:
+        there = sum(basis.double_angles(of_points.max_direction[corners[:, corner]]) for corner in range(3))
+        return np.where(trusted | (there == 0), axes, there)
 
-def _sharing_edges(triangles: IntArray) -> IntArray:
-    """(p, 2): triangles next to each other among those that have the same edge."""
-    sides = np.sort(triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1) @ [triangles.max() + 1, 1]
-    order = np.argsort(sides, kind="stable")
-    same = np.flatnonzero(np.diff(sides[order]) == 0)
-    return np.stack([order[same], order[same + 1]], axis=1) // 3
+    size, everywhere = float(np.sqrt(cloud.area / (4 * np.pi))), np.ones(len(corners), dtype=bool)
+    return _frames(tensors[corners].mean(axis=1), TangentBasis.of(upright, (a + b + c) / 3), size, everywhere, filled)
 
 
 def _agreeing(mesh: TriangleMesh) -> TriangleMesh:

@@ -61,7 +61,7 @@ FOREIGN = replace(LAST, averaging=0.999)
 NAMED = replace(COMMON, loss="multinomial")
 NEW = range(training_bodies.REPOSED_FROM, training_bodies.CLOUDS_FROM)
 """Bodies in poses of others, and those that other programs meshed."""
-MANY_CLOUDS = (*range(490, 780, 2), *range(training_bodies.FOREIGN_FROM, 1140, 3), *range(1140, 1200))
+MANY_CLOUDS = (*range(490, 780, 2), *range(training_bodies.FOREIGN_FROM, 1112, 3), *range(1140, 1180))
 """Some of either, and clouds."""
 
 
@@ -100,7 +100,7 @@ STAGES = {
     ),
     "humans-14": Stage(
         MANY_CLOUDS,
-        replace(FOREIGN, steps=5000, learning_rate=4e-4, seed=15, validate_every=2500, arithmetic="float32"),
+        replace(FOREIGN, steps=5000, learning_rate=4e-4, seed=15, validate_every=5000, arithmetic="float32"),
         nearby=True,
     ),
     "correspondence": Stage(NEW, replace(NAMED, steps=5000, noise=0.1, seed=13, validate_every=1250)),
