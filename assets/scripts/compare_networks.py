@@ -1,9 +1,11 @@
 """The comparison of the paper's Figures 7 and 8: networks of equal budget and signatures, on the test people.
 
     python compare_networks.py -o FOLDER [--inputs RUN/inputs] [--report ../reports]
+    python compare_networks.py -o FOLDER --longer
 
 All networks learn from the same bodies for the same number of mini-batches; OSD is in closed form and learns from them
-too, the windowed Fourier network from as many mini-batches of a part of them. FOLDER keeps what was done.
+too, the windowed Fourier network from as many mini-batches of a part of them. FOLDER keeps what was done. --longer
+gives the networks of the paper, and them alone, more bodies and steps, and writes longer_mesh and so on.
 """
 
 from __future__ import annotations
@@ -36,7 +38,7 @@ from add_core.learning.training_set import PreparedShape, prepare
 from add_core.learning.windowed_fourier import FourierShape, WindowedFourierNetwork, learn_windowed_fourier
 from add_core.spectra import compute_spectra
 
-BODIES = range(0, 112, 2)
+BODIES, MORE_BODIES = range(0, 112, 2), range(0, 200, 2)
 SETTINGS = TrainingSettings(
     learning_rate=3e-3,
     steps=1500,
@@ -48,6 +50,10 @@ SETTINGS = TrainingSettings(
     validate_every=250,
 )
 """Of all networks alike. On persons 7 and 8, whom BODIES leave out, 0.001 left ADD1 to ADD3 far from converged."""
+LONGER = replace(
+    SETTINGS, learning_rate=2e-3, steps=3600, pairs=100, noise=0.1, arithmetic="float32", checkpoint_every=500
+)
+NETWORKS = ("ADD1", "ADD2", "ADD3", "mADD1", "mADD2", "mADD3")
 ISOTROPIC = ("ADD1", "ADD3", "mADD1", "mADD3")
 """Networks whose isotropic twins are trained too; that of mADD3 is the isotropic network of the figures."""
 SIGNATURES = ("hks", "wks")
@@ -80,14 +86,16 @@ class View:
         return replace(seen, channels=repeated) if self.recipe.isotropic else seen
 
 
-def network(name: str, shapes: list[PreparedShape], folder: Path, *, isotropic: bool = False) -> Describe:
+def network(
+    name: str, shapes: list[PreparedShape], folder: Path, settings: TrainingSettings, *, isotropic: bool = False
+) -> Describe:
     """Train one of the paper's networks, or take the one trained before."""
     view = View.of(name, isotropic=isotropic)
     built = build_network(name, alphas=view.recipe.alphas, angles=RECIPE.angles, splines=RECIPE.splines)
     # Reflection exchanges angles: nothing to learn from without any.
     symmetry = None if isotropic else training_bodies.people_middles().symmetry
     model = fit(
-        built.architecture, view.recipe, [view(s) for s in shapes], folder, settings=SETTINGS, symmetry=symmetry
+        built.architecture, view.recipe, [view(s) for s in shapes], folder, settings=settings, symmetry=symmetry
     )
 
     def describe(shape: PreparedShape, part: Sample) -> np.ndarray:
@@ -129,11 +137,17 @@ def signature(name: str) -> Describe:
 
 
 def evaluate(
-    methods: dict[str, Describe], folder: Path, variant: str, protocols: tuple[str, ...] = PROTOCOLS
+    methods: dict[str, Describe],
+    folder: Path,
+    variant: str,
+    protocols: tuple[str, ...] = PROTOCOLS,
+    *,
+    pairs: int = PAIRS,
+    queries: int = QUERIES,
 ) -> list[Scores]:
     """Scores of every method on the same pairs."""
     found: dict[str, list[Scores]] = {name: [] for name in methods}
-    numbers = chosen_pairs(humans(), PAIRS, 0)
+    numbers = chosen_pairs(humans(), pairs, 0)
     parts = {i: sample(humans(), i, variant) for pair in numbers for i in pair}
     shapes = {i: prepared_sample(part, folder / "test") for i, part in parts.items()}
     described = {(name, i): describe(shapes[i], parts[i]) for name, describe in methods.items() for i in parts}
@@ -142,7 +156,7 @@ def evaluate(
         for name in methods:
             pair = (described[name, i], described[name, j])
             scores = descriptor_scores(
-                name, parts[i], parts[j], pair, protocols=protocols, distances=distances, queries=QUERIES
+                name, parts[i], parts[j], pair, protocols=protocols, distances=distances, queries=queries
             )
             found[name].append(scores)
     return [averaged(scores) for scores in found.values()]
@@ -167,13 +181,36 @@ def learned_methods(folder: Path, inputs: Path) -> dict[str, Describe]:
     made: dict[str, Describe] = {"osd": osd(shapes)}
     meshes = [item for item in bodies if isinstance(item.shape, TriangleMesh)]
     made["learned-wft"] = windowed_fourier(meshes[:24], folder / "wft.pt")
-    for name in ("ADD1", "ADD2", "ADD3", "mADD1", "mADD2", "mADD3"):
+    return made | networks(shapes, folder, SETTINGS)
+
+
+def networks(shapes: list[PreparedShape], folder: Path, settings: TrainingSettings) -> dict[str, Describe]:
+    """The paper's networks, and isotropic twins of some."""
+    made: dict[str, Describe] = {}
+    for name in NETWORKS:
         if name in ISOTROPIC:
             twin = "isotropic" if name == "mADD3" else f"{name}, isotropic"
-            made[twin] = network(name, shapes, folder / f"{name}-isotropic", isotropic=True)
-        made[name] = network(name, shapes, folder / name)
+            made[twin] = network(name, shapes, folder / f"{name}-isotropic", settings, isotropic=True)
+        made[name] = network(name, shapes, folder / name, settings)
         print(name, flush=True)
     return made
+
+
+def compare_longer(folder: Path, inputs: Path, report: Path) -> None:
+    """The paper's networks after more steps on more bodies, on more pairs."""
+    shapes = prepare([training_bodies.person(number) for number in MORE_BODIES], RECIPE, inputs)
+    methods = networks(shapes, folder, LONGER)
+    for variant in VARIANTS:
+        scores = evaluate(methods, folder, variant, ("cmc", "roc"), pairs=2 * PAIRS, queries=2 * QUERIES)
+        print(variant, table(scores), sep="\n", flush=True)
+        note = f"{LONGER.steps} mini-batches of {LONGER.pairs} pairs from {len(MORE_BODIES)} bodies for each network."
+        save_report(
+            scores,
+            report / f"longer_{variant}",
+            title=f"The networks of the paper, test people, {variant}",
+            command="python assets/scripts/compare_networks.py -o FOLDER --longer",
+            notes=[f"{2 * PAIRS} pairs, {2 * QUERIES} queries each.", note],
+        )
 
 
 def main() -> None:
@@ -184,9 +221,13 @@ def main() -> None:
     parser.add_argument("--report", type=Path, default=Path(__file__).parents[1] / "reports")
     parser.add_argument("--models", nargs="*", default=["humans-madd3"], help="Score these too.")
     parser.add_argument("--only-models", action="store_true", help="Train nothing; scores.json of the first.")
+    parser.add_argument("--longer", action="store_true", help="The networks alone, trained for longer.")
     given = parser.parse_args()
     torch.set_num_threads(1)
     given.output.mkdir(parents=True, exist_ok=True)
+    if given.longer:
+        compare_longer(given.output, given.inputs or given.output / "inputs", given.report)
+        return
     methods: dict[str, Describe] = {}
     if not given.only_models:
         methods |= {name: signature(name) for name in SIGNATURES}

@@ -100,7 +100,7 @@ STAGES = {
     ),
     "humans-14": Stage(
         MANY_CLOUDS,
-        replace(FOREIGN, steps=5000, learning_rate=4e-4, seed=15, validate_every=5000, arithmetic="float32"),
+        replace(FOREIGN, steps=3000, learning_rate=4e-4, seed=15, validate_every=3000, arithmetic="float32"),
         nearby=True,
     ),
     "correspondence": Stage(NEW, replace(NAMED, steps=5000, noise=0.1, seed=13, validate_every=1250)),
