@@ -19,8 +19,7 @@
     python train_models.py humans-12 -o RUN12 --inputs INPUTS --start START11.safetensors
     python mix_models.py RUN9=0.25 RUN10=0.25 RUN11=0.5 -o START13.safetensors
     python train_models.py humans-13 -o RUN13 --inputs INPUTS --start START13.safetensors
-    python mix_models.py RUN11=0.33 RUN12=0.33 RUN13=0.34 -o START14.safetensors
-    python train_models.py humans-14 -o RUN14 --inputs INPUTS --start START14.safetensors
+    python mix_models.py RUN11=0.33 RUN12=0.33 RUN13=0.34 -o MIXED.safetensors
     python train_models.py dogs -o RUN
     python train_models.py osd -o RUN --inputs INPUTS
 
@@ -35,7 +34,6 @@ from __future__ import annotations
 
 import argparse
 import json
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -59,10 +57,8 @@ LATER = replace(COMMON, noise=0.1, seed=1, validate_every=1000)
 LAST = replace(LATER, noise=0.04, learning_rate=4e-4)
 FOREIGN = replace(LAST, averaging=0.999)
 NAMED = replace(COMMON, loss="multinomial")
-NEW = range(training_bodies.REPOSED_FROM, training_bodies.CLOUDS_FROM)
+NEW = range(training_bodies.REPOSED_FROM, 1140)
 """Bodies in poses of others, and those that other programs meshed."""
-MANY_CLOUDS = (*range(490, 780, 2), *range(training_bodies.FOREIGN_FROM, 1112, 3), *range(1140, 1180))
-"""Some of either, and clouds."""
 
 
 @dataclass(frozen=True)
@@ -72,7 +68,7 @@ class Stage:
     and not exact ones alone.
     """
 
-    bodies: Sequence[int]
+    bodies: range
     settings: TrainingSettings
     nearby: bool = False
     clouds: int = 1
@@ -97,11 +93,6 @@ STAGES = {
     ),
     "humans-13": Stage(
         NEW, replace(FOREIGN, steps=8000, learning_rate=4e-4, seed=12, validate_every=4000), nearby=True, clouds=2
-    ),
-    "humans-14": Stage(
-        MANY_CLOUDS,
-        replace(FOREIGN, steps=3000, learning_rate=4e-4, seed=15, validate_every=3000, arithmetic="float32"),
-        nearby=True,
     ),
     "correspondence": Stage(NEW, replace(NAMED, steps=5000, noise=0.1, seed=13, validate_every=1250)),
     "correspondence-2": Stage(

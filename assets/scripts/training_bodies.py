@@ -27,10 +27,6 @@ REPOSED_FROM = 490
 """Bodies from this number on have a pose that another body took, and often a way towards a second one."""
 FOREIGN_FROM = 980
 """Bodies from this number on are meshed by other programs: see `foreign_meshings`."""
-CLOUDS_FROM = 1140
-"""Bodies from this number on are clouds of points spread evenly on a body, as scanners' points are after thinning."""
-FEWEST, MOST = 2500, 6890
-"""Points of such a cloud."""
 VALIDATION = {
     "mesh": (61, 67, 72, 78),
     "remeshed": (64, 69, 70, 75),
@@ -63,10 +59,8 @@ def person(number: int) -> TrainingShape:
 
     Even numbers leave out persons 7 and 8, so that they alone give a set that the validation people are new to. From
     REPOSED_FROM on, blends of three of all people in any pose that one of them took, always varied; from FOREIGN_FROM
-    on, such blends or ones in a pose of the people, as other programs mesh them, and from CLOUDS_FROM on as clouds.
+    on, such blends or ones in a pose of the people, as other programs mesh them.
     """
-    if number >= CLOUDS_FROM:
-        return _sampled(number)
     if number >= FOREIGN_FROM:
         return _foreign(number)
     if number >= REPOSED_FROM:
@@ -95,19 +89,6 @@ def _foreign(number: int) -> TrainingShape:
         rough = roughen(item.shape, amplitude=float(skin), smoothing=int(draw.integers(0, 4)), seed=number)
         return TrainingShape(rough, item.places)
     return item
-
-
-def _sampled(number: int) -> TrainingShape:
-    draw = np.random.default_rng([1, number])
-    mesh = _in_another_pose(draw) if draw.random() < 0.5 else _blend_in(int(draw.integers(10)), draw, range(8))
-    mesh = bend(mesh, amplitude=draw.uniform(*BEND), wavelength=draw.uniform(*WAVELENGTH), seed=number)
-    if draw.random() < 0.3:
-        skin = np.exp(draw.uniform(*np.log(SCANNER)))
-        mesh = roughen(mesh, amplitude=float(skin), smoothing=int(draw.integers(1, 4)), seed=number)
-    count = int(np.exp(draw.uniform(*np.log((FEWEST, MOST)))))
-    part = subsample(mesh, count, start=int(draw.integers(mesh.vertex_count)))
-    cloud = part.cloud if draw.random() < 0.7 else PointCloud(part.cloud.points)
-    return TrainingShape(cloud, part.indices)
 
 
 def _in_another_pose(draw: np.random.Generator) -> TriangleMesh:
