@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from scipy.sparse import csr_array
 
-from .._check import FloatArray
+from .._check import FloatArray, IntArray
 from .mesh import TriangleMesh
 
 SMOOTHING_ROUNDS = 2
@@ -28,16 +28,25 @@ def face_curvature_tensors(mesh: TriangleMesh, *, rounds: int = SMOOTHING_ROUNDS
     Edges with one face, with more than two, or between faces of opposite orientation have no angle and add nothing;
     the faces beside them take their curvature from whole faces nearby.
     """
-    weight = _face_weights(mesh)
-    around = _faces_around_vertices(mesh)
-    vertex_weight = around @ weight
-    share = vertex_weight[mesh.faces]
-    share = _over(share, share.sum(axis=1))  # (m, 3), of each face's corners
     density = _over(_face_measures(mesh), mesh.face_areas)
-    for _ in range(rounds + 1):
-        vertex_mean = _over(around @ (weight[:, None] * density), vertex_weight)
-        density = np.einsum("fc,fci->fi", share, vertex_mean[mesh.faces])
-    return density.reshape(-1, 3, 3)
+    means, share = vertex_means(mesh.faces, mesh.vertex_count, density, _face_weights(mesh), rounds=rounds)
+    return np.asarray(np.einsum("fc,fcij->fij", share, means[mesh.faces]))
+
+
+def vertex_means(
+    triangles: IntArray, count: int, density: FloatArray, weight: FloatArray, *, rounds: int
+) -> tuple[FloatArray, FloatArray]:
+    """Means at the vertices (count, 3, 3) of `density` (t, 9) on the triangles around them, by `weight` (t,), smoothed:
+    `rounds` times the mean over triangles' corners and back. And the corners' shares of a triangle, (t, 3)."""
+    columns = np.repeat(np.arange(len(triangles)), 3)
+    around = csr_array((np.ones(triangles.size), (triangles.ravel(), columns)), shape=(count, len(triangles)))
+    total = np.asarray(around @ weight)
+    share = _over(total[triangles], total[triangles].sum(axis=1))
+    means = _over(np.asarray(around @ (weight[:, None] * density)), total)
+    for _ in range(rounds):
+        density = np.einsum("tc,tci->ti", share, means[triangles])
+        means = _over(np.asarray(around @ (weight[:, None] * density)), total)
+    return means.reshape(-1, 3, 3), share
 
 
 def dihedral_angles(mesh: TriangleMesh) -> FloatArray:
@@ -63,11 +72,6 @@ def _face_weights(mesh: TriangleMesh) -> FloatArray:
     inner = np.bincount(mesh.inner_edges.faces.ravel(), minlength=len(mesh.faces))
     area = np.where(mesh.has_area, mesh.face_areas, 0.0)
     return np.asarray(np.where(inner == 3, area, AT_BOUNDARY * area))
-
-
-def _faces_around_vertices(mesh: TriangleMesh) -> csr_array:
-    rows, columns = mesh.faces.ravel(), np.repeat(np.arange(len(mesh.faces)), 3)
-    return csr_array((np.ones(len(rows)), (rows, columns)), shape=(mesh.vertex_count, len(mesh.faces)))
 
 
 def _over(total: FloatArray, area: FloatArray) -> FloatArray:

@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 import numpy as np
-from scipy.sparse import csr_array
 
 from .._check import BoolArray, FloatArray, IntArray
-from .curvature import AT_BOUNDARY, SMOOTHING_ROUNDS
+from .curvature import AT_BOUNDARY, SMOOTHING_ROUNDS, vertex_means
 
 POOR, GOOD = 32.0, 36.0
 """Degrees: smallest angle of the triangles around a point, in the mean, below which they say nothing about curvature,
-and above which they say as much as those of a mesh. It is 30 where points are scattered at random, 38 to 41 on meshes
-of people and on clouds that are thinned evenly."""
+and above which they say as much as those of a mesh. In the median it is 30 to 31 where points are scattered at random,
+37 to 43 at the vertices of people and dogs and in clouds that are thinned evenly."""
 
 
 def fan_curvature_tensors(
@@ -40,15 +39,7 @@ def fan_curvature_tensors(
     half = np.einsum("e,ei,ej->eij", angles / (2 * length), vector, vector).reshape(-1, 9)
     density = half[edge].sum(axis=1) / np.maximum(double / 2, np.finfo(float).tiny)[:, None]
     weight = weights * double / 2 * np.where(known[edge].all(axis=1), 1.0, AT_BOUNDARY)
-    around = _around(triangles, count)
-    total = np.maximum(around @ weight, np.finfo(float).tiny)[:, None]
-    share = total[triangles, 0]
-    share /= share.sum(axis=1, keepdims=True)
-    means = (around @ (weight[:, None] * density)) / total
-    for _ in range(rounds):
-        density = np.einsum("tc,tci->ti", share, means[triangles])
-        means = (around @ (weight[:, None] * density)) / total
-    return np.asarray(means.reshape(-1, 3, 3))
+    return vertex_means(triangles, count, density, weight, rounds=rounds)[0]
 
 
 def trust_in_fans(points: FloatArray, triangles: IntArray) -> FloatArray:
@@ -58,18 +49,12 @@ def trust_in_fans(points: FloatArray, triangles: IntArray) -> FloatArray:
     length = np.maximum(np.linalg.norm(edges, axis=2), np.finfo(float).tiny)
     cosines = -np.einsum("tci,tci->tc", edges[:, [1, 2, 0]], edges[:, [2, 0, 1]])
     angles = np.arccos(np.clip(cosines / (length[:, [1, 2, 0]] * length[:, [2, 0, 1]]), -1, 1))
-    least, around = np.degrees(angles.min(axis=1)), _around(triangles, len(points))
-    touching = np.maximum(around.sum(axis=1), 1)
-    mean = around @ least / touching
-    for _ in range(SMOOTHING_ROUNDS):
-        mean = around @ mean[triangles].mean(axis=1) / touching
+    least, touching = np.degrees(angles.min(axis=1)), np.bincount(triangles.ravel(), minlength=len(points))
+    for _ in range(SMOOTHING_ROUNDS + 1):
+        sums = np.bincount(triangles.ravel(), np.repeat(least, 3), len(points))
+        mean = sums / np.maximum(touching, 1)
+        least = mean[triangles].mean(axis=1)
     return np.asarray(np.clip((mean - POOR) / (GOOD - POOR), 0.0, 1.0))
-
-
-def _around(triangles: IntArray, count: int) -> csr_array:
-    """(n, t): which triangles touch a point."""
-    columns = np.repeat(np.arange(len(triangles)), 3)
-    return csr_array((np.ones(triangles.size), (triangles.ravel(), columns)), shape=(count, len(triangles)))
 
 
 def _angles(

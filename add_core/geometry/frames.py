@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import logging
 from collections.abc import Callable
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 
 import numpy as np
 
@@ -147,9 +147,9 @@ def _cloud_frames(cloud: PointCloud) -> PrincipalFrames:
         size=float(np.sqrt(cloud.area / (4 * np.pi))),
         usable=touched,
     )
-    of_points = {field.name: getattr(frames, field.name) for field in fields(frames) if field.name != "on_fans"}
-    on_fans = _fan_frames(cloud, corners, frames) if len(corners) else None
-    return PrincipalFrames(**{name: read_only(rows[place]) for name, rows in of_points.items()}, on_fans=on_fans)
+    names = [field.name for field in fields(frames) if field.name != "on_fans"]
+    rows = {name: read_only(getattr(frames, name)[place]) for name in names}
+    return replace(frames, **rows, on_fans=_fan_frames(cloud, corners, frames) if len(corners) else None)
 
 
 def _fan_frames(cloud: PointCloud, corners: IntArray, of_points: PrincipalFrames) -> PrincipalFrames:

@@ -75,12 +75,12 @@ def _faces(mesh: TriangleMesh, frames: PrincipalFrames) -> Elements:
 
 def _fans(cloud: PointCloud, frames: PrincipalFrames) -> Elements:
     fans = cloud.fans
-    rows = fans.triangles[:, 0] if frames.on_fans is None else np.arange(len(fans.triangles))
-    own = frames if frames.on_fans is None else frames.on_fans
+    centre, own = fans.triangles[:, 0], np.arange(len(fans.triangles))
+    rows, frames = (centre, frames) if frames.on_fans is None else (own, frames.on_fans)
     normal = np.cross(fans.edges[:, 0], fans.edges[:, 1])
     normal /= np.linalg.norm(normal, axis=1, keepdims=True)
     # The frame of the centre, or nearly that of the triangle, laid into it: u_M follows, u_m stands across it.
-    across = np.cross(normal, own.max_direction[rows])
+    across = np.cross(normal, frames.max_direction[rows])
     across /= np.maximum(np.linalg.norm(across, axis=1, keepdims=True), np.finfo(float).tiny)
     return Elements(
         corners=fans.triangles,

@@ -196,21 +196,31 @@ def networks(shapes: list[PreparedShape], folder: Path, settings: TrainingSettin
     return made
 
 
-def compare_longer(folder: Path, inputs: Path, report: Path) -> None:
-    """The paper's networks after more steps on more bodies, on more pairs."""
-    shapes = prepare([training_bodies.person(number) for number in MORE_BODIES], RECIPE, inputs)
-    methods = networks(shapes, folder, LONGER)
+def compare(methods: dict[str, Describe], given: argparse.Namespace) -> None:
+    """Score the methods on each variant of the test people, and write a report of it."""
+    settings, bodies, times = (LONGER, MORE_BODIES, 2) if given.longer else (SETTINGS, BODIES, 1)
+    pairs, queries = times * PAIRS, times * QUERIES
+    protocols = ("cmc", "roc") if given.longer else PROTOCOLS
     for variant in VARIANTS:
-        scores = evaluate(methods, folder, variant, ("cmc", "roc"), pairs=2 * PAIRS, queries=2 * QUERIES)
+        scores = evaluate(methods, given.output, variant, protocols, pairs=pairs, queries=queries)
         print(variant, table(scores), sep="\n", flush=True)
-        note = f"{LONGER.steps} mini-batches of {LONGER.pairs} pairs from {len(MORE_BODIES)} bodies for each network."
+        note = f"{settings.steps} mini-batches of {settings.pairs} pairs from {len(bodies)} bodies for each network."
         save_report(
             scores,
-            report / f"longer_{variant}",
-            title=f"The networks of the paper, test people, {variant}",
-            command="python assets/scripts/compare_networks.py -o FOLDER --longer",
-            notes=[f"{2 * PAIRS} pairs, {2 * QUERIES} queries each.", note],
+            given.report / f"{'longer' if given.longer else 'learned'}_{variant}",
+            title=f"16 numbers, test people, {variant}",
+            command="python assets/scripts/compare_networks.py -o FOLDER" + " --longer" * given.longer,
+            notes=[f"{pairs} pairs, {queries} queries each.", note],
         )
+
+
+def score_models(methods: dict[str, Describe], folder: Path) -> None:
+    """Write scores.json of the first model, for `ship_model.py`."""
+    found = {variant: evaluate(methods, folder, variant, ("cmc", "roc")) for variant in VARIANTS}
+    for variant, scores in found.items():
+        print(variant, table(scores), sep="\n", flush=True)
+    first = {variant: scores[0].numbers for variant, scores in found.items()}
+    (folder / "scores.json").write_text(json.dumps(first, indent=1), encoding="utf-8")
 
 
 def main() -> None:
@@ -225,32 +235,16 @@ def main() -> None:
     given = parser.parse_args()
     torch.set_num_threads(1)
     given.output.mkdir(parents=True, exist_ok=True)
-    if given.longer:
-        compare_longer(given.output, given.inputs or given.output / "inputs", given.report)
-        return
-    methods: dict[str, Describe] = {}
-    if not given.only_models:
-        methods |= {name: signature(name) for name in SIGNATURES}
-        methods |= learned_methods(given.output, given.inputs or given.output / "inputs")
-    methods |= {str(name): shipped(name) for name in given.models}
-    found: dict[str, dict[str, float]] = {}
-    for variant in VARIANTS:
-        protocols = ("cmc", "roc") if given.only_models else PROTOCOLS
-        scores = evaluate(methods, given.output, variant, protocols)
-        print(variant, table(scores), sep="\n", flush=True)
-        if given.only_models:
-            found |= {variant: scores[0].numbers}
-            continue
-        note = f"{SETTINGS.steps} mini-batches of {SETTINGS.pairs} pairs from {len(BODIES)} bodies for each network."
-        save_report(
-            scores,
-            given.report / f"learned_{variant}",
-            title=f"16 numbers, test people, {variant}",
-            command="python assets/scripts/compare_networks.py -o FOLDER",
-            notes=[f"{PAIRS} pairs, {QUERIES} queries each.", note],
-        )
+    inputs = given.inputs or given.output / "inputs"
+    models = {str(name): shipped(name) for name in given.models}
     if given.only_models:
-        (given.output / "scores.json").write_text(json.dumps(found, indent=1), encoding="utf-8")
+        score_models(models, given.output)
+    elif given.longer:
+        shapes = prepare([training_bodies.person(number) for number in MORE_BODIES], RECIPE, inputs)
+        compare(networks(shapes, given.output, LONGER), given)
+    else:
+        signatures = {name: signature(name) for name in SIGNATURES}
+        compare(signatures | learned_methods(given.output, inputs) | models, given)
 
 
 if __name__ == "__main__":
