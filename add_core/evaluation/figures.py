@@ -20,8 +20,8 @@ AXES = {
 }
 
 
-def three_panels(scores: Sequence[Scores], *, title: str = "") -> Figure:
-    """A matplotlib figure of all curves of all methods; a panel stays empty where a protocol was not evaluated.
+def panels(scores: Sequence[Scores], *, title: str = "") -> Figure:
+    """A matplotlib figure of all curves of all methods, with a panel for each protocol that was evaluated.
 
     Raises ParameterError if matplotlib is not installed.
     """
@@ -29,8 +29,10 @@ def three_panels(scores: Sequence[Scores], *, title: str = "") -> Figure:
         from matplotlib.figure import Figure
     except ImportError:  # an extra: whoever only needs numbers need not install it
         raise ParameterError("Figures need matplotlib, which is not installed. Run: pip install matplotlib") from None
-    figure = Figure(figsize=(13, 4.4), layout="constrained")
-    for axes, protocol in zip(figure.subplots(1, 3), PROTOCOLS, strict=True):
+    evaluated = {curve.protocol for score in scores for curve in score.curves}
+    protocols = [protocol for protocol in PROTOCOLS if protocol in evaluated] or list(PROTOCOLS)
+    figure = Figure(figsize=(2.2 + 3.6 * len(protocols), 4.4), layout="constrained")
+    for axes, protocol in zip(figure.subplots(1, len(protocols), squeeze=False)[0], protocols, strict=True):
         heading, across, up = AXES[protocol]
         axes.set(title=heading, xlabel=across, ylabel=up, ylim=(0, 1.02))
         axes.grid(color="#dddddd", linewidth=0.6)

@@ -11,7 +11,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from ..errors import ParameterError
-from .figures import three_panels
+from .figures import panels
 from .scores import Scores
 
 ORDER = ("CMC@1", "CMC@10", "CMC@50", "AUC", "mean error", "P(right side)")
@@ -44,7 +44,7 @@ def save_report(
 
     title : heading and first line of the figure. command : the command that makes the report again. notes : sentences
         on how it was measured. Raises ParameterError if there are no scores or the folder cannot be made, or as
-        `three_panels` does.
+        `panels` does.
     """
     if not scores:
         raise ParameterError("scores must hold at least one method, but it is empty.")
@@ -79,7 +79,7 @@ def _write_tables(scores: Sequence[Scores], folder: Path, *, title: str, command
         "methods": [{"method": s.method, "pairs": s.pairs, **s.numbers} for s in scores],
     }
     (folder / "scores.json").write_text(json.dumps(facts, indent=1) + "\n", encoding="utf-8")
-    figure = three_panels(scores, title=title)
+    figure = panels(scores, title=title)
     buffer = io.BytesIO()
     figure.savefig(buffer, format="svg", metadata={"Date": None})
     (folder / "curves.svg").write_bytes(buffer.getvalue())

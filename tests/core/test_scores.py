@@ -10,6 +10,7 @@ from numpy.testing import assert_allclose, assert_array_equal
 from add_core.errors import ParameterError
 from add_core.evaluation import Scores, averaged, descriptor_scores, match_scores, princeton, save_report, table
 from add_core.evaluation.baselines import BASELINES, describe_with, functional_map_matches, refined_matches
+from add_core.evaluation.figures import panels
 from add_core.evaluation.report_reading import load_report
 from add_core.evaluation.samples import VARIANTS, Sample, at_vertices, sample, truth_between
 from add_core.evaluation.scores import Curve, query_rows
@@ -99,6 +100,15 @@ def test_a_report_can_be_read_back(pair, tmp_path):
         save_report(scores, folder / "scores.csv" / "below", title="Eggs")
     with pytest.raises(ParameterError, match="scores must hold at least one method"):
         save_report([], folder, title="Eggs")
+
+
+def test_a_report_draws_the_protocols_that_were_evaluated(pair):
+    matches = match_scores("guess", *pair, np.zeros(pair[0].shape.vertex_count, dtype=int))
+    assert [axes.get_title() for axes in panels([matches]).axes] == ["Princeton"]
+    places = descriptor_scores("places", *pair, (pair[0].shape.vertices,) * 2, protocols=("cmc", "roc"))
+    drawn = panels([places, matches])
+    assert [axes.get_title() for axes in drawn.axes] == ["CMC", "ROC", "Princeton"]
+    assert [len(axes.lines) for axes in drawn.axes] == [2, 2, 2]
 
 
 @pytest.mark.parametrize("variant", VARIANTS)
