@@ -11,8 +11,11 @@ from .scores import PROTOCOLS, Scores
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000", "#999999", "#882255", "#44aa99")
-"""Okabe and Ito's colours, told apart by the colour-blind, and two more."""
+COLOURS = (
+    *("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000", "#999999"),
+    *("#882255", "#332288", "#999933", "#8c510a", "#e31a1c", "#66c2a5", "#b15bff"),
+)
+"""Okabe and Ito's colours, told apart by the colour-blind, and seven more: a report compares up to fifteen methods."""
 AXES = {
     "cmc": ("CMC", "rank k", "share found among the k nearest"),
     "roc": ("ROC", "share of false pairs accepted", "share of true pairs accepted"),
@@ -31,7 +34,7 @@ def panels(scores: Sequence[Scores], *, title: str = "") -> Figure:
         raise ParameterError("Figures need matplotlib, which is not installed. Run: pip install matplotlib") from None
     evaluated = {curve.protocol for score in scores for curve in score.curves}
     protocols = [protocol for protocol in PROTOCOLS if protocol in evaluated] or list(PROTOCOLS)
-    figure = Figure(figsize=(2.2 + 3.6 * len(protocols), 4.4), layout="constrained")
+    figure = Figure(figsize=(max(7.5, 2.2 + 3.6 * len(protocols)), 4.4), layout="constrained")
     for axes, protocol in zip(figure.subplots(1, len(protocols), squeeze=False)[0], protocols, strict=True):
         heading, across, up = AXES[protocol]
         axes.set(title=heading, xlabel=across, ylabel=up, ylim=(0, 1.02))
